@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "atomic.hpp"
 #include "co_can_report.h"
 
 namespace co::report {
@@ -32,17 +33,10 @@ inline constexpr std::uint8_t detail_overflow = 0x01;
 inline constexpr std::uint8_t detail_passive = 0x30;
 inline constexpr std::uint8_t detail_active = 0x40;
 
-// The interrupt and the loop share some members; each has one writer, so atomic loads and stores suffice.
-template <typename Number>
-Number load(const Number& number) {
-  return __atomic_load_n(&number, __ATOMIC_ACQUIRE);
-}
-template <typename Number>
-void store(Number& number, Number value) {
-  __atomic_store_n(&number, value, __ATOMIC_RELEASE);
-}
+using atomic::load;
+using atomic::store;
 
-/// Forgets everything that was reported. Called while the interrupt is disabled.
+/// Resets the counter of overflows and the reported values. Called while the interrupt is disabled.
 inline void restart(CO_CAN_REPORT& report) {
   report.Overflows = 0;
   report.ReportedLost = 0;

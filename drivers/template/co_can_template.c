@@ -9,8 +9,8 @@
 
 static CO_IF_FRM ReceiveMemory[RECEIVE_QUEUE_FRAMES];
 static CO_RING ReceiveQueue;
-static uint16_t ReportedLost;         // lost frames (queue full) that are already reported to the node
-static volatile uint8_t NotedEvents;  // bit n: CO_CAN_EVENT n, set by the interrupt
+static uint16_t ReportedLost;           // lost frames (queue full) that are already reported to the node
+static volatile uint8_t PendingEvents;  // bit n: CO_CAN_EVENT n, set by the interrupt
 
 // Context: the loop, in CONodeInit(). Prepare the controller (clock, pins, interrupt), but stay off the bus: the bit
 // rate is not known yet. Called again, before Enable, when LSS changes the bit rate.
@@ -19,7 +19,7 @@ static void Init(void) {
   // interrupt does not use the queue after that.
   (void)CORingInit(&ReceiveQueue, ReceiveMemory, RECEIVE_QUEUE_FRAMES);
   ReportedLost = 0;
-  NotedEvents = 0;
+  PendingEvents = 0;
 }
 
 // Context: the loop. Set the bit timing for baud bit/s (sample point at 87.5 % of the bit for CANopen) and go on the
@@ -72,20 +72,20 @@ void TemplateCanInterrupt(void) {
     (void)CORingPut(&ReceiveQueue, &frm);
   }
   const uint8_t events = 0;  // Here: bit CO_CAN_OVERRUN, CO_CAN_PASSIVE, CO_CAN_BUS_OFF, CO_CAN_RECOVERED, if new
-  NotedEvents = (uint8_t)(NotedEvents | events);
+  PendingEvents = (uint8_t)(PendingEvents | events);
 }
 
-// Returns and clears the events noted by the interrupt, which must not add one between the two steps.
-static uint8_t TakeNotes(void) {
+// Returns and clears the events stored by the interrupt, which must not add one between the two steps.
+static uint8_t TakeEvents(void) {
   // Here: disable the controller's interrupts.
-  const uint8_t events = NotedEvents;
-  NotedEvents = 0;
+  const uint8_t events = PendingEvents;
+  PendingEvents = 0;
   // Here: enable them again.
   return events;
 }
 
 void TemplateCanReport(CO_NODE* node) {
-  uint8_t events = NotedEvents == 0 ? 0 : TakeNotes();
+  uint8_t events = PendingEvents == 0 ? 0 : TakeEvents();
   const uint16_t lost = CORingLost(&ReceiveQueue);
   if (lost != ReportedLost) {
     ReportedLost = lost;
@@ -99,5 +99,5 @@ void TemplateCanReport(CO_NODE* node) {
 }
 
 bool TemplateCanHasWork(void) {
-  return CORingCount(&ReceiveQueue) != 0 || NotedEvents != 0 || CORingLost(&ReceiveQueue) != ReportedLost;
+  return CORingCount(&ReceiveQueue) != 0 || PendingEvents != 0 || CORingLost(&ReceiveQueue) != ReportedLost;
 }

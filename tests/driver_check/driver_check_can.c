@@ -115,12 +115,12 @@ static bool IsSame(const WAY* way, const CO_IF_FRM* sent, const CO_IF_FRM* got) 
 static const char* Pass(const WAY* way, const CO_IF_FRM* frm) {
   CO_IF_FRM got;
   if (!Offer(way->From, frm)) {
-    return "frame $ with # bytes is never taken";
+    return "Send never accepts frame $ with # bytes";
   }
   if (!Await(way->To, &got)) {
-    return "frame $ with # bytes does not arrive";
+    return "frame $ with # bytes is not received";
   }
-  return IsSame(way, frm, &got) ? NULL : "frame $ with # bytes arrives as another";
+  return IsSame(way, frm, &got) ? NULL : "frame $ with # bytes is received with other contents";
 }
 
 // Transfers a frame in all directions; prints the verdict if it is negative.
@@ -143,7 +143,7 @@ static void CheckLengths(const BUS* bus) {
       return;
     }
   }
-  CheckPass(bus->Own.Check, "can.dlc", "lengths 0 to 8 arrive");
+  CheckPass(bus->Own.Check, "can.dlc", "data lengths 0 to 8 are received");
 }
 
 // Transfers frames in which each bit of the data is 0 and 1.
@@ -157,7 +157,7 @@ static void CheckData(const BUS* bus) {
       return;
     }
   }
-  CheckPass(bus->Own.Check, "can.data", "each bit of 8 bytes arrives in its place");
+  CheckPass(bus->Own.Check, "can.data", "each bit of 8 bytes is received at its position");
 }
 
 static void CheckBaseIds(const BUS* bus) {
@@ -168,13 +168,13 @@ static void CheckBaseIds(const BUS* bus) {
       return;
     }
   }
-  CheckPass(bus->Own.Check, "can.id11", "each bit of the identifier arrives");
+  CheckPass(bus->Own.Check, "can.id11", "each bit of 11-bit identifiers is received");
 }
 
 static void CheckExtendedIds(const BUS* bus) {
   CO_IF_FRM frm;
   if ((bus->Own.Check->Frames & CO_CHECK_29_BIT) == 0) {
-    CheckSkip(bus->Own.Check, "can.id29", "the driver is said to have none");
+    CheckSkip(bus->Own.Check, "can.id29", "the settings exclude 29-bit identifiers");
     return;
   }
   for (uint32_t bit = 0; bit <= 29; ++bit) {
@@ -184,13 +184,13 @@ static void CheckExtendedIds(const BUS* bus) {
       return;
     }
   }
-  CheckPass(bus->Own.Check, "can.id29", "each bit of the identifier arrives, marked CO_IF_FRM_EXT");
+  CheckPass(bus->Own.Check, "can.id29", "each bit of 29-bit identifiers is received, with CO_IF_FRM_EXT");
 }
 
 static void CheckRemote(const BUS* bus) {
   CO_IF_FRM frm;
   if ((bus->Own.Check->Frames & CO_CHECK_REMOTE) == 0) {
-    CheckSkip(bus->Own.Check, "can.remote", "the driver is said to have none");
+    CheckSkip(bus->Own.Check, "can.remote", "the settings exclude remote frames");
     return;
   }
   Fill(&frm, 0x702 | CO_IF_FRM_RTR, 0, 0);
@@ -199,7 +199,7 @@ static void CheckRemote(const BUS* bus) {
   }
   Fill(&frm, 0x702, 0, 0);
   if (PassAll(bus, "can.remote", &frm)) {
-    CheckPass(bus->Own.Check, "can.remote", "remote frames arrive, marked CO_IF_FRM_RTR, data frames unmarked");
+    CheckPass(bus->Own.Check, "can.remote", "remote frames are received with CO_IF_FRM_RTR, data frames without it");
   }
 }
 
@@ -253,14 +253,14 @@ static const char* Stream(const WAY* way, const STREAM* stream, uint32_t* number
     turns = CheckPatience(c);
     FillNumbered(&want, stream, *number);
     if (!IsSame(way, &want, &got)) {
-      return "frame # of # does not come in its turn";
+      return "frame # of # is received out of order";
     }
     ++*number;
   }
   if (*number < stream->Num) {
-    return *number < sent ? "frame # of # was taken, but does not arrive" : "frame # of # is never taken";
+    return *number < sent ? "frame # of # was accepted, but not received" : "Send never accepts frame # of #";
   }
-  return IsQuiet(way->To) ? NULL : "frame # of # is the last, but more arrive";
+  return IsQuiet(way->To) ? NULL : "more frames than # of # are received";
 }
 
 static void CheckStream(const BUS* bus, const char* name, const STREAM* stream, const char* good) {
@@ -282,14 +282,14 @@ static uint32_t Burst(const CO_DRIVER_CHECK* c) { return c->Burst == 0 ? 16 : c-
 static void CheckOrder(const BUS* bus) {
   const uint32_t window = Burst(bus->Own.Check) < 8 ? Burst(bus->Own.Check) : 8;
   const STREAM stream = {8 * window, window, true, true};
-  CheckStream(bus, "can.order", &stream, "# frames, each of a higher priority, arrive as they were sent");
+  CheckStream(bus, "can.order", &stream, "# frames with rising priority are received in the order of Send");
 }
 
 // Sends more frames than the controller can hold, so that Send must refuse some.
 static void CheckBusy(const BUS* bus) {
   const STREAM stream = {8 * Burst(bus->Own.Check), Burst(bus->Own.Check), false, false};
   CheckStream(bus, "can.busy", &stream,
-              "# frames, refused # times: what was taken arrives once, what was not does not");
+              "# frames, refused # times: accepted frames are received once, refused ones never");
 }
 
 // Checks that received frames are queued until they are read. The PC sends numbered frames as fast as it can; their
@@ -311,7 +311,7 @@ static void CheckFedBurst(const BUS* bus) {
       return;
     }
   }
-  CheckSay(c, CHECK_OK, "can.burst", "# frames wait until they are read", Burst(c), 0);
+  CheckSay(c, CHECK_OK, "can.burst", "# frames are stored until they are read", Burst(c), 0);
 }
 
 static void CheckBurst(const BUS* bus) {
@@ -320,7 +320,7 @@ static void CheckBurst(const BUS* bus) {
     CheckFedBurst(bus);
     return;
   }
-  CheckStream(bus, "can.burst", &stream, "# frames wait until they are read");
+  CheckStream(bus, "can.burst", &stream, "# frames are stored until they are read");
 }
 
 // Controllers that go on and off the bus.
@@ -329,10 +329,10 @@ static void CheckInit(const BUS* bus) {
   CO_IF_FRM frm;
   Init(&bus->Own);
   if (Read(&bus->Own, &frm) > 0) {
-    CheckFail(bus->Own.Check, "can.init", "there is a frame before Enable");
+    CheckFail(bus->Own.Check, "can.init", "Read returns a frame before Enable");
     return;
   }
-  CheckPass(bus->Own.Check, "can.init", "no frame before Enable");
+  CheckPass(bus->Own.Check, "can.init", "Read returns no frame before Enable");
 }
 
 static void CheckEmpty(const BUS* bus) {
@@ -340,13 +340,12 @@ static void CheckEmpty(const BUS* bus) {
   for (uint8_t n = 0; n < 10; ++n) {
     const int16_t result = Read(&bus->Own, &frm);
     if (result != 0) {
-      CheckFail(
-          bus->Own.Check, "can.empty",
-          result < 0 ? "Read reports an error where there is no frame" : "Read tells a frame that nobody has sent");
+      CheckFail(bus->Own.Check, "can.empty",
+                result < 0 ? "Read returns an error if there is no frame" : "Read returns a frame that was not sent");
       return;
     }
   }
-  CheckPass(bus->Own.Check, "can.empty", "Read returns 0 where there is no frame");
+  CheckPass(bus->Own.Check, "can.empty", "Read returns 0 if there is no frame");
 }
 
 // Returns true if a frame of the peer is received. Resets the peer, whose controller would repeat an unacknowledged
@@ -364,15 +363,15 @@ static void CheckOff(const BUS* bus, const char* name) {
   CO_IF_FRM frm;
   Fill(&frm, 0x100, 1, 0);
   if (Send(&bus->Own, &frm) > 0) {
-    CheckFail(bus->Own.Check, name, "off the bus, Send says that a frame was taken");
+    CheckFail(bus->Own.Check, name, "Send accepts a frame while the controller is off the bus");
     Reset(&bus->Own);
     return;
   }
   if (bus->Own.Check->Bus == CO_CHECK_PEER && HearsPeer(bus)) {
-    CheckFail(bus->Own.Check, name, "off the bus, a frame is received");
+    CheckFail(bus->Own.Check, name, "a frame is received while the controller is off the bus");
     return;
   }
-  CheckPass(bus->Own.Check, name, "off the bus, nothing is sent and nothing received");
+  CheckPass(bus->Own.Check, name, "no frame is sent or received while the controller is off the bus");
 }
 
 // Checks that Reset discards the frames received before it, and that frames are transferred afterwards.
@@ -388,11 +387,11 @@ static void CheckReset(const BUS* bus) {
   }
   Reset(&bus->Own);
   if (!IsQuiet(&bus->Own)) {
-    CheckFail(bus->Own.Check, "can.reset", "Reset leaves frames that were received before it");
+    CheckFail(bus->Own.Check, "can.reset", "Reset does not discard received frames");
     return;
   }
   if (PassAll(bus, "can.reset", &frm)) {
-    CheckPass(bus->Own.Check, "can.reset", "Reset throws away what was received, and the bus goes on");
+    CheckPass(bus->Own.Check, "can.reset", "Reset discards received frames; later frames are transferred");
   }
 }
 
@@ -403,11 +402,11 @@ static void CheckAgain(const BUS* bus) {
   Init(&bus->Own);
   Enable(&bus->Own);
   if (!IsQuiet(&bus->Own)) {
-    CheckFail(bus->Own.Check, "can.again", "after Init and Enable there is a frame that nobody has sent");
+    CheckFail(bus->Own.Check, "can.again", "Read returns a frame that was not sent, after the second Init and Enable");
     return;
   }
   if (bus->Ways == 0 || PassAll(bus, "can.again", &frm)) {
-    CheckPass(bus->Own.Check, "can.again", "Init and Enable work a second time");
+    CheckPass(bus->Own.Check, "can.again", "a second Init and Enable succeed");
   }
 }
 
@@ -443,7 +442,7 @@ static void CheckFilter(const BUS* bus) {
   static uint32_t many[FILTER_IDS];
   CO_DRIVER_CHECK* const c = bus->Own.Check;
   if (bus->Own.Ex == NULL || bus->Own.Ex->Filter == NULL) {
-    CheckSkip(c, "can.filter", "the driver has none");
+    CheckSkip(c, "can.filter", "the driver has no Filter function");
     return;
   }
   for (uint32_t n = 0; n < FILTER_IDS; ++n) {
@@ -459,7 +458,7 @@ static void CheckFilter(const BUS* bus) {
   (void)ReceivesAll(bus, "can.filter", others, 3, 1);
   Reset(&bus->Own);
   if (Receives(bus, "can.filter", 0x201)) {
-    CheckPass(c, "can.filter", "6, 3 and 200 identifiers are received, also after a change and a Reset");
+    CheckPass(c, "can.filter", "6, 3 and 200 identifiers pass the filter, also after a change and a Reset");
   }
 }
 
@@ -476,7 +475,7 @@ static const char* const NeedABus[] = {"can.dlc",   "can.data", "can.id11",  "ca
 static void CheckTraffic(const BUS* bus) {
   if (bus->Ways == 0) {
     for (size_t n = 0; n < sizeof(NeedABus) / sizeof(NeedABus[0]); ++n) {
-      CheckSkip(bus->Own.Check, NeedABus[n], "there is no bus");
+      CheckSkip(bus->Own.Check, NeedABus[n], "no bus is connected");
     }
     return;
   }
@@ -514,7 +513,7 @@ void CODriverCheckCan(CO_DRIVER_CHECK* check) {
   bus.Peer = EndOf(check, NULL, check->Peer);
   FindWays(&bus);
   if (bus.Own.Plain == NULL && bus.Own.Ex == NULL) {
-    CheckSkip(check, "can", "there is no driver");
+    CheckSkip(check, "can", "no driver is set");
     return;
   }
   check->OddResult = false;
@@ -531,8 +530,8 @@ void CODriverCheckCan(CO_DRIVER_CHECK* check) {
   Close(&bus.Own);
   CheckOff(&bus, "can.close");
   if (check->OddResult) {
-    CheckFail(check, "can.result", "Read or Send returns something else than sizeof(CO_IF_FRM), 0 or less");
+    CheckFail(check, "can.result", "Read or Send returns a positive value other than sizeof(CO_IF_FRM)");
   } else {
-    CheckPass(check, "can.result", "Read and Send return sizeof(CO_IF_FRM), 0 or less");
+    CheckPass(check, "can.result", "Read and Send return sizeof(CO_IF_FRM), 0 or a negative value");
   }
 }

@@ -94,11 +94,12 @@ static void CheckShape(const NVM* nvm) {
   const CO_NVM_SHAPE s = nvm->Shape;
   const uint32_t unit = s.EraseSize == 0 ? s.ProgramSize : s.EraseSize;
   if (unit == 0 || s.ProgramSize == 0 || s.EraseSize % s.ProgramSize != 0 || s.Capacity % unit != 0) {
-    CheckFail(nvm->Check, "nvm.shape", "sizes are no multiples: Capacity of EraseSize, EraseSize of ProgramSize");
+    CheckFail(nvm->Check, "nvm.shape", "Capacity is not a multiple of EraseSize, or EraseSize not of ProgramSize");
   } else if (s.ProgramSize > CO_STORE_BUFFER || s.Capacity / unit < 2) {
-    CheckFail(nvm->Check, "nvm.shape", "ProgramSize exceeds CO_STORE_BUFFER, or there are no two units to erase");
+    CheckFail(nvm->Check, "nvm.shape",
+              "ProgramSize exceeds CO_STORE_BUFFER, or the memory has fewer than two erase units");
   } else if (s.EraseSize != 0 && nvm->Ex->Erase == NULL) {
-    CheckFail(nvm->Check, "nvm.shape", "memory that is to be erased, and no Erase");
+    CheckFail(nvm->Check, "nvm.shape", "EraseSize is not 0, but the driver has no Erase function");
   } else {
     CheckSay(nvm->Check, CHECK_OK, "nvm.shape", "# bytes, in units of #", s.Capacity, unit);
   }
@@ -108,16 +109,16 @@ static void CheckWhole(const NVM* nvm) {
   for (uint8_t pass = 0; pass < 2; ++pass) {
     const uint8_t seed = pass == 0 ? 0x5A : 0xA5;
     if (!MakeWritable(nvm) || !WriteAll(nvm, seed)) {
-      CheckFail(nvm->Check, "nvm.whole", "the memory cannot be erased and written from its first to its last byte");
+      CheckFail(nvm->Check, "nvm.whole", "the whole memory cannot be erased and written");
       return;
     }
     const uint32_t wrong = FindWrong(nvm, seed);
     if (wrong != nvm->Shape.Capacity) {
-      CheckSay(nvm->Check, CHECK_FAILED, "nvm.whole", "written, but not there: address $h", wrong, 0);
+      CheckSay(nvm->Check, CHECK_FAILED, "nvm.whole", "address $h does not hold the written byte", wrong, 0);
       return;
     }
   }
-  CheckSay(nvm->Check, CHECK_OK, "nvm.whole", "# bytes were written twice and are there", nvm->Shape.Capacity, 0);
+  CheckSay(nvm->Check, CHECK_OK, "nvm.whole", "# bytes were written twice and read back", nvm->Shape.Capacity, 0);
 }
 
 // Reads at unaligned addresses and of any size. Must be called after nvm.whole: the memory then holds the pattern.
@@ -128,22 +129,22 @@ static void CheckReads(const NVM* nvm) {
       const bool first = Holds(nvm, start, size, 0xA5);
       const bool last = Holds(nvm, nvm->Shape.Capacity - start - size, size, 0xA5);
       if (!first || !last) {
-        CheckSay(nvm->Check, CHECK_FAILED, "nvm.read", "# bytes from address # (or as far from the end) are wrong",
-                 size, start);
+        CheckSay(nvm->Check, CHECK_FAILED, "nvm.read",
+                 "# bytes from address # (or at this distance from the end) are read wrongly", size, start);
         return;
       }
     }
   }
-  CheckPass(nvm->Check, "nvm.read", "any length is read from any address");
+  CheckPass(nvm->Check, "nvm.read", "all lengths are read from all addresses");
 }
 
 static void CheckKept(const NVM* nvm) {
   Init(nvm);
   if (FindWrong(nvm, 0xA5) != nvm->Shape.Capacity) {
-    CheckFail(nvm->Check, "nvm.kept", "Init changes what is stored");
+    CheckFail(nvm->Check, "nvm.kept", "Init changes the stored data");
     return;
   }
-  CheckPass(nvm->Check, "nvm.kept", "Init leaves what is stored");
+  CheckPass(nvm->Check, "nvm.kept", "Init keeps the stored data");
 }
 
 // Erases whole units from address 0 on that contain at least size bytes. For flash only.
@@ -189,12 +190,12 @@ static void CheckWrites(const NVM* nvm) {
     }
     const bool good = nvm->Shape.EraseSize == 0 ? Overwrites(nvm, start, size) : Programs(nvm, start, size);
     if (!good) {
-      CheckSay(nvm->Check, CHECK_FAILED, "nvm.write", "# bytes to address #: not written, or more than these", size,
+      CheckSay(nvm->Check, CHECK_FAILED, "nvm.write", "writing # bytes to address # fails or changes other bytes", size,
                start);
       return;
     }
   }
-  CheckPass(nvm->Check, "nvm.write", "pieces of any size are written, and nothing beside them");
+  CheckPass(nvm->Check, "nvm.write", "pieces of all sizes are written without changes to other bytes");
 }
 
 static void CheckBuffer(const NVM* nvm) {
@@ -204,10 +205,10 @@ static void CheckBuffer(const NVM* nvm) {
     same = same && Buffer[n] == Pattern(n, 0x3C);
   }
   if (!same) {
-    CheckFail(nvm->Check, "nvm.buffer", "Write changes the bytes of its caller");
+    CheckFail(nvm->Check, "nvm.buffer", "Write changes the buffer of its caller");
     return;
   }
-  CheckPass(nvm->Check, "nvm.buffer", "Write leaves the bytes of its caller");
+  CheckPass(nvm->Check, "nvm.buffer", "Write does not change the buffer of its caller");
 }
 
 // Accesses addresses beyond the end of the memory. Returns the fault, or null.
@@ -241,7 +242,7 @@ static void CheckOverflow(const NVM* nvm) {
     CheckFail(nvm->Check, "nvm.overflow", "a write beyond the end has changed the beginning");
     return;
   }
-  CheckPass(nvm->Check, "nvm.overflow", "an access beyond the end is refused, or cut there");
+  CheckPass(nvm->Check, "nvm.overflow", "an access beyond the end is refused or truncated");
 }
 
 static void CheckErase(const NVM* nvm) {
@@ -250,13 +251,14 @@ static void CheckErase(const NVM* nvm) {
   if (!MakeWritable(nvm) || !WriteAll(nvm, 0x66) || !nvm->Ex->Erase(nvm->Ctx, last, unit)) {
     CheckFail(nvm->Check, "nvm.erase", "the last unit cannot be erased");
   } else if (!IsErased(nvm, last, unit)) {
-    CheckFail(nvm->Check, "nvm.erase", "what was erased is not FFh");
+    CheckFail(nvm->Check, "nvm.erase", "an erased byte is not FFh");
   } else if (!Holds(nvm, last - 1, 1, 0x66) || !Holds(nvm, 0, 1, 0x66)) {
-    CheckFail(nvm->Check, "nvm.erase", "more is erased than was asked for");
+    CheckFail(nvm->Check, "nvm.erase", "Erase changes bytes outside its range");
   } else if (nvm->Ex->Erase(nvm->Ctx, nvm->Shape.Capacity, unit) || !Holds(nvm, 0, 1, 0x66)) {
     CheckFail(nvm->Check, "nvm.erase", "an erase beyond the end is not refused");
   } else {
-    CheckSay(nvm->Check, CHECK_OK, "nvm.erase", "a unit of # bytes is erased to FFh, and no other", unit, 0);
+    CheckSay(nvm->Check, CHECK_OK, "nvm.erase", "a unit of # bytes is erased to FFh without changes to others", unit,
+             0);
   }
 }
 
@@ -277,7 +279,7 @@ static bool FindMemory(NVM* nvm, CO_DRIVER_CHECK* c) {
 void CODriverCheckNvm(CO_DRIVER_CHECK* check) {
   NVM nvm;
   if (!FindMemory(&nvm, check)) {
-    CheckSkip(check, "nvm", "there is no driver");
+    CheckSkip(check, "nvm", "no driver is set");
     return;
   }
   Init(&nvm);
@@ -290,7 +292,7 @@ void CODriverCheckNvm(CO_DRIVER_CHECK* check) {
     }
   }
   if (nvm.Shape.Capacity < 4 * nvm.Shape.ProgramSize || nvm.Shape.ProgramSize > BUFFER_BYTES) {
-    CheckSkip(check, "nvm", "nothing is known of the size of the memory, or it is too small");
+    CheckSkip(check, "nvm", "the size of the memory is unknown or too small");
     return;
   }
   CheckWhole(&nvm);

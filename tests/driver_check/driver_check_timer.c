@@ -70,7 +70,7 @@ static uint32_t Arm(CO_DRIVER_CHECK* c, uint32_t ticks) {
   return now;
 }
 
-// Waits until ticks have passed since from, or the clock stands still.
+// Waits until ticks have passed since from, or the clock does not advance.
 static void WaitUntil(const CO_DRIVER_CHECK* c, uint32_t from, uint32_t ticks) {
   uint32_t last = Now(c);
   for (uint32_t turn = CheckPatience(c); turn != 0 && last - from < ticks; --turn) {
@@ -101,10 +101,10 @@ static void CheckInit(CO_DRIVER_CHECK* c) {
   WaitTicks(c, 20);
   const bool left = !HasClock(c) && Plain(c)->Delay() != 0;
   if (Count(c) - before > Spare(c) || left) {
-    CheckFail(c, "timer.init", left ? "after Init, Delay is not 0" : "after Init, the timer elapses");
+    CheckFail(c, "timer.init", left ? "after Init, Delay is not 0" : "after Init, an expiry is reported");
     return;
   }
-  CheckPass(c, "timer.init", "after Init, nothing elapses");
+  CheckPass(c, "timer.init", "after Init, no expiry is reported");
 }
 
 static void CheckClock(CO_DRIVER_CHECK* c) {
@@ -121,17 +121,17 @@ static void CheckClock(CO_DRIVER_CHECK* c) {
     last = now;
   }
   if (last - start < 1000) {
-    CheckFail(c, "timer.clock", "the clock stands still");
+    CheckFail(c, "timer.clock", "the clock does not advance");
     return;
   }
-  CheckPass(c, "timer.clock", "the clock goes on and never back");
+  CheckPass(c, "timer.clock", "the clock advances and never goes back");
 }
 
 // Compares the driver's clock with the other clock of the same frequency. Tolerance: 2 %, more than any crystal
 // deviates.
 static void CheckRate(CO_DRIVER_CHECK* c) {
   if (c->Clock == NULL) {
-    CheckSkip(c, "timer.rate", "there is no other clock to compare with");
+    CheckSkip(c, "timer.rate", "no reference clock is set");
     return;
   }
   const uint32_t other = c->Clock(c->User);
@@ -140,8 +140,8 @@ static void CheckRate(CO_DRIVER_CHECK* c) {
   const uint32_t passed = Now(c) - start;
   const uint32_t expected = c->Clock(c->User) - other;
   const uint32_t wrong = passed > expected ? passed - expected : expected - passed;
-  CheckSay(c, wrong > expected / 50 + 1 ? CHECK_FAILED : CHECK_OK, "timer.rate", "# ticks in # of the other clock",
-           passed, expected);
+  CheckSay(c, wrong > expected / 50 + 1 ? CHECK_FAILED : CHECK_OK, "timer.rate",
+           "# ticks in # ticks of the reference clock", passed, expected);
 }
 
 // Waits for an expiry after ticks. Returns 0: in time, 1: early, 2: late, 3: not at all; the time of it in after.
@@ -158,8 +158,8 @@ static uint8_t Elapses(CO_DRIVER_CHECK* c, uint32_t ticks, uint32_t* after) {
 
 static void CheckElapses(CO_DRIVER_CHECK* c) {
   static const uint16_t delays[] = {1, 2, 3, 7, 10, 64, 100, 255, 256, 257, 1000};
-  static const char* const wrong[] = {"", "# ticks are over early, after #", "# ticks are late, or never over: after #",
-                                      "# ticks are never over"};
+  static const char* const wrong[] = {"", "# ticks elapse early, after #", "# ticks elapse late or not at all: after #",
+                                      "# ticks do not elapse"};
   for (size_t n = 0; n < sizeof(delays) / sizeof(delays[0]); ++n) {
     uint32_t after = 0;
     const uint8_t result = Elapses(c, delays[n], &after);
@@ -168,7 +168,7 @@ static void CheckElapses(CO_DRIVER_CHECK* c) {
       return;
     }
   }
-  CheckPass(c, "timer.elapse", "1 to 1000 ticks are over neither early nor late");
+  CheckPass(c, "timer.elapse", "1 to 1000 ticks elapse neither early nor late");
 }
 
 // Checks a long wait; a driver with a clock may interrupt before its end.
@@ -180,7 +180,7 @@ static void CheckLong(CO_DRIVER_CHECK* c) {
   c->LongTicks = 0;
   const uint32_t wrong = after > ticks ? after - ticks : ticks - after;
   CheckSay(c, result == 0 ? CHECK_OK : CHECK_FAILED, "timer.long",
-           result == 1 ? "# ticks are # early" : "# ticks are over, # late", ticks, wrong);
+           result == 1 ? "# ticks elapse # early" : "# ticks elapse # late", ticks, wrong);
 }
 
 static void CheckOnce(CO_DRIVER_CHECK* c) {
@@ -192,7 +192,7 @@ static void CheckOnce(CO_DRIVER_CHECK* c) {
     CheckFail(c, "timer.once", "the timer does not elapse exactly once");
     return;
   }
-  CheckPass(c, "timer.once", "elapses once until it is loaded again");
+  CheckPass(c, "timer.once", "the timer elapses once for each Reload");
 }
 
 static void CheckStop(CO_DRIVER_CHECK* c) {
@@ -218,10 +218,9 @@ static void CheckReplace(CO_DRIVER_CHECK* c, uint32_t first, uint32_t wait, uint
   const uint8_t result = Count(c) != before ? 1 : Elapses(c, second, &after);
   WaitTicks(c, first + 10);
   if (result == 0 && Count(c) - before <= 1 + Spare(c)) {
-    CheckSay(c, CHECK_OK, "timer.replace", "# ticks take the place of #", second, first);
+    CheckSay(c, CHECK_OK, "timer.replace", "a Reload of # ticks replaces one of #", second, first);
   } else {
-    CheckSay(c, CHECK_FAILED, "timer.replace", "# ticks do not take the place of #, from their own beginning", second,
-             first);
+    CheckSay(c, CHECK_FAILED, "timer.replace", "a Reload of # ticks does not replace one of #", second, first);
   }
 }
 
@@ -241,13 +240,13 @@ static void CheckChain(CO_DRIVER_CHECK* c) {
   (void)Arm(c, 0);
   const uint32_t came = Count(c) - before;
   CheckSay(c, came == num ? CHECK_OK : CHECK_FAILED, "timer.reload",
-           "loaded again in the interrupt, it elapses # times of #", came, num);
+           "with a Reload in the interrupt, the timer elapses # times of #", came, num);
   if (HasClock(c)) {
     return;  // the stack computes each delay from the clock
   }
   const uint32_t took = c->ElapsedAt - start;
   const bool steady = came == num && took >= num * ticks && took <= num * ticks + c->Late;
-  CheckSay(c, steady ? CHECK_OK : CHECK_FAILED, "timer.drift", "loaded again in the interrupt, # ticks take #",
+  CheckSay(c, steady ? CHECK_OK : CHECK_FAILED, "timer.drift", "with a Reload in the interrupt, # ticks take #",
            num * ticks, took);
 }
 
@@ -270,13 +269,13 @@ static void CheckDelay(CO_DRIVER_CHECK* c) {
   }
   (void)AwaitElapsed(c, before, start, ticks);
   const uint32_t left = Plain(c)->Delay();
-  CheckSay(c, left == 0 ? CHECK_OK : CHECK_FAILED, "timer.delay", "Delay falls to #", left, 0);
+  CheckSay(c, left == 0 ? CHECK_OK : CHECK_FAILED, "timer.delay", "Delay decreases to #", left, 0);
 }
 
 // Lets the timer elapse while interrupts are disabled: the pending expiry must be discarded by Reload and Stop.
 static void CheckPending(CO_DRIVER_CHECK* c) {
   if (c->Clock == NULL) {
-    CheckSkip(c, "timer.pending", "there is no other clock to wait by while interrupts are off");
+    CheckSkip(c, "timer.pending", "no reference clock is set, which is needed while interrupts are disabled");
     return;
   }
   const uint32_t before = Count(c);
@@ -308,7 +307,7 @@ static void CheckWrap(CO_DRIVER_CHECK* c) {
   const uint32_t longest = c->Longest == 0 ? 2 * c->TmrFreq : c->Longest;
   const uint32_t left = 0u - Now(c);
   if (left > longest || left < 50) {
-    CheckSkip(c, "timer.wrap", "too far away: let the clock start shortly before 2^32 (FFFF0000h)");
+    CheckSkip(c, "timer.wrap", "the wrap is too far away; start the clock shortly before 2^32 (FFFF0000h)");
     return;
   }
   uint32_t after = 0;
@@ -316,7 +315,7 @@ static void CheckWrap(CO_DRIVER_CHECK* c) {
   const uint8_t result = Elapses(c, 100, &after);
   const uint32_t now = Now(c);
   CheckSay(c, result == 0 && now < INT32_MAX ? CHECK_OK : CHECK_FAILED, "timer.wrap",
-           "over the wrap, 100 ticks take #; the clock is at #", after, now);
+           "across the wrap, 100 ticks take #; the clock is at #", after, now);
 }
 
 static void Start(CO_DRIVER_CHECK* c) {
@@ -344,7 +343,7 @@ static void CheckExpiries(CO_DRIVER_CHECK* c) {
 void CODriverCheckTimer(CO_DRIVER_CHECK* check) {
   const bool plain = check->Drv != NULL && check->Drv->Timer != NULL;
   if (check->TmrFreq == 0 || (!HasClock(check) && !plain)) {
-    CheckSkip(check, "timer", "there is no driver, or no frequency");
+    CheckSkip(check, "timer", "no driver or no frequency is set");
     return;
   }
   Start(check);
@@ -353,7 +352,7 @@ void CODriverCheckTimer(CO_DRIVER_CHECK* check) {
     CheckClock(check);
     CheckRate(check);
     if (!alarms) {
-      CheckSkip(check, "timer.elapse", "the driver has no Alarm: the loop asks CONodeNextDeadline()");
+      CheckSkip(check, "timer.elapse", "the driver has no Alarm; the loop polls CONodeNextDeadline()");
       return;
     }
     CheckWrap(check);

@@ -16,7 +16,7 @@
 
 namespace co {
 
-/// Ranges of the bit timing of the controller.
+/// Limits of the bit timing of the controller: prescaler, segment 1, segment 2, synchronisation jump width.
 inline constexpr BitTimingLimits bxcan_limits = {1024, 16, 8, 4};  // [RM0090, 32.7.7: bit timing]
 
 /// Returns the entry of CO_CAN_BXCAN.Rates for a bit timing; \a baud in bit/s.

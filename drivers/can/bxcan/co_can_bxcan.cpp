@@ -13,15 +13,15 @@ namespace {
 
 using report::State;
 
-constexpr std::int16_t taken = sizeof(CO_IF_FRM);
+constexpr std::int16_t one_frame = sizeof(CO_IF_FRM);
 
 // Interrupts that are always enabled on the bus. TMEIE is disabled while the loop uses the mailboxes.
-constexpr std::uint32_t always_wanted =
+constexpr std::uint32_t always_enabled =
     CO_BXCAN_IER_FMPIE0 | CO_BXCAN_IER_FOVIE0 | CO_BXCAN_IER_EPVIE | CO_BXCAN_IER_BOFIE | CO_BXCAN_IER_ERRIE;
-constexpr std::uint32_t wanted = always_wanted | CO_BXCAN_IER_TMEIE;
+constexpr std::uint32_t enabled_on_bus = always_enabled | CO_BXCAN_IER_TMEIE;
 
 // Limits of loops. The frame on the bus has to end before the initialisation mode is entered; about 3 ms at 72 MHz.
-constexpr unsigned patience = 20000;
+constexpr unsigned status_reads = 20000;
 constexpr unsigned fifo_reads = 32;
 
 CO_CAN_BXCAN& controller(void* ctx) { return *static_cast<CO_CAN_BXCAN*>(ctx); }
@@ -224,7 +224,7 @@ void set_filters(const CO_CAN_BXCAN& can, const Filters& all) {
   write(regs.Fa1r, others | active);
 }
 
-// On and off the bus --------------------------------------------------------------------------------------------------
+// Joining and leaving the bus -----------------------------------------------------------------------------------------
 
 const CO_CAN_BXCAN_RATE* find_rate(const CO_CAN_BXCAN& can, std::uint32_t baud) {
   for (unsigned n = 0; n < can.RateNum; ++n) {
@@ -236,7 +236,7 @@ const CO_CAN_BXCAN_RATE* find_rate(const CO_CAN_BXCAN& can, std::uint32_t baud) 
 }
 
 // Disables the interrupts. The read-back ensures that the write has reached the controller, so none follows.
-void silence(const CO_CAN_BXCAN& can) {
+void disable_interrupts(const CO_CAN_BXCAN& can) {
   write(can.Registers->Ier, 0);
   static_cast<void>(read(can.Registers->Ier));
 }
@@ -244,7 +244,7 @@ void silence(const CO_CAN_BXCAN& can) {
 // Enters the initialisation mode. Returns false if the controller does not.
 bool request_initialisation(CO_BXCAN_REGISTERS& regs) {
   write(regs.Mcr, CO_BXCAN_MCR_INRQ | CO_BXCAN_MCR_FREEZE);
-  unsigned left = patience;
+  unsigned left = status_reads;
   while (left != 0 && (read(regs.Msr) & CO_BXCAN_MSR_INAK) == 0) {
     --left;
   }
@@ -253,9 +253,9 @@ bool request_initialisation(CO_BXCAN_REGISTERS& regs) {
 
 // Goes off the bus after the frame on the bus. A reset of the controller takes it off a bus whose frame does not end in
 // time.
-void go_off_the_bus(CO_CAN_BXCAN& can) {
+void leave_bus(CO_CAN_BXCAN& can) {
   CO_BXCAN_REGISTERS& regs = *can.Registers;
-  silence(can);
+  disable_interrupts(can);
   can.Rate = nullptr;
   Mailboxes mailboxes(can);
   mailboxes.abort(transmit::all_mailboxes);
@@ -267,14 +267,14 @@ void go_off_the_bus(CO_CAN_BXCAN& can) {
   transmit::forget(can.Transmit);
 }
 
-void go_on_the_bus(CO_CAN_BXCAN& can, const CO_CAN_BXCAN_RATE& rate) {
+void join_bus(CO_CAN_BXCAN& can, const CO_CAN_BXCAN_RATE& rate) {
   CO_BXCAN_REGISTERS& regs = *can.Registers;
-  go_off_the_bus(can);
+  leave_bus(can);
   discard_received(can);
   write(regs.Btr, rate.Timing | (can.Loopback ? CO_BXCAN_BTR_LBKM | CO_BXCAN_BTR_SILM : 0));
   can.Rate = &rate;
   write(regs.Msr, CO_BXCAN_MSR_ERRI);
-  write(regs.Ier, wanted);
+  write(regs.Ier, enabled_on_bus);
   write(regs.Mcr,
         CO_BXCAN_MCR_FREEZE | CO_BXCAN_MCR_RFLM | (can.Recovery == CO_CAN_RECOVERY_AUTOMATIC ? CO_BXCAN_MCR_ABOM : 0));
 }
@@ -299,7 +299,7 @@ bool report_events(CO_CAN_BXCAN& can, CO_IF_FRM& frame) {
 
 void init(void* ctx) {
   CO_CAN_BXCAN& can = controller(ctx);
-  go_off_the_bus(can);
+  leave_bus(can);
   open_filters(can);
   discard_received(can);
 }
@@ -309,10 +309,10 @@ void enable(void* ctx, std::uint32_t baud) {
   const CO_CAN_BXCAN_RATE* const rate = find_rate(can, baud);
   can.Report.Reported = static_cast<std::uint8_t>(State::active);
   if (rate == nullptr) {
-    go_off_the_bus(can);
+    leave_bus(can);
     return;
   }
-  go_on_the_bus(can, *rate);
+  join_bus(can, *rate);
 }
 
 std::int16_t read_driver(void* ctx, CO_IF_FRM* frm) {
@@ -320,7 +320,7 @@ std::int16_t read_driver(void* ctx, CO_IF_FRM* frm) {
   if (can.Rate == nullptr) {
     return 0;
   }
-  return report_events(can, *frm) || CORingGet(&can.Received, frm) ? taken : std::int16_t{0};
+  return report_events(can, *frm) || CORingGet(&can.Received, frm) ? one_frame : std::int16_t{0};
 }
 
 std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
@@ -332,10 +332,10 @@ std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
     return 0;  // waits for 11 recessive bits
   }
   Mailboxes mailboxes(can);
-  write(can.Registers->Ier, always_wanted);
+  write(can.Registers->Ier, always_enabled);
   const bool accepted = transmit::accept(can.Transmit, mailboxes, *frm);
-  write(can.Registers->Ier, wanted);
-  return accepted ? taken : std::int16_t{0};
+  write(can.Registers->Ier, enabled_on_bus);
+  return accepted ? one_frame : std::int16_t{0};
 }
 
 void reset(void* ctx) {
@@ -344,17 +344,17 @@ void reset(void* ctx) {
     return;
   }
   if ((read(can.Registers->Esr) & CO_BXCAN_ESR_BOFF) != 0) {
-    go_on_the_bus(can, *can.Rate);
+    join_bus(can, *can.Rate);
     return;
   }
-  silence(can);
+  disable_interrupts(can);
   Mailboxes mailboxes(can);
   transmit::drop(can.Transmit, mailboxes);
   discard_received(can);
-  write(can.Registers->Ier, wanted);
+  write(can.Registers->Ier, enabled_on_bus);
 }
 
-void close(void* ctx) { go_off_the_bus(controller(ctx)); }
+void close(void* ctx) { leave_bus(controller(ctx)); }
 
 void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
   const CO_CAN_BXCAN& can = controller(ctx);

@@ -16,10 +16,10 @@
 namespace co::fdcan {
 /// \cond internal
 
-inline constexpr std::int16_t taken = sizeof(CO_IF_FRM);
+inline constexpr std::int16_t one_frame = sizeof(CO_IF_FRM);
 
 // Limits of loops. The frame on the bus has to end before the controller goes off the bus; about 2 ms at 170 MHz.
-inline constexpr unsigned patience = 20000;
+inline constexpr unsigned status_reads = 20000;
 inline constexpr unsigned fifo_reads = 64;
 
 // Reads of a register after new filters were written: longer than a search of the filters.
@@ -31,8 +31,8 @@ inline std::uint32_t read(const volatile std::uint32_t& reg) { return lexican_re
 inline void write(volatile std::uint32_t& reg, std::uint32_t value) { lexican_reg_write(&reg, value); }
 
 // Waits until bits of a register have a value. Returns false if they do not get it.
-inline bool await(const volatile std::uint32_t& reg, std::uint32_t bits, std::uint32_t value) {
-  unsigned left = patience;
+inline bool await_bits(const volatile std::uint32_t& reg, std::uint32_t bits, std::uint32_t value) {
+  unsigned left = status_reads;
   while (left != 0 && (read(reg) & bits) != value) {
     --left;
   }
@@ -45,10 +45,10 @@ class Driver {
   using State = report::State;
 
   // Interrupts that are always enabled on the bus; those of transmission are disabled while the loop uses the buffers.
-  static constexpr std::uint32_t always_wanted =
+  static constexpr std::uint32_t always_enabled =
       Variant::received | Variant::receive_lost | Variant::passive | Variant::bus_off;
-  static constexpr std::uint32_t of_transmission = Variant::sent | Variant::cancelled;
-  static constexpr std::uint32_t wanted = always_wanted | of_transmission;
+  static constexpr std::uint32_t transmit_interrupts = Variant::sent | Variant::cancelled;
+  static constexpr std::uint32_t enabled_on_bus = always_enabled | transmit_interrupts;
 
   static Registers& registers(const CO_CAN_FDCAN& can) { return *static_cast<Registers*>(can.Registers); }
   static volatile std::uint32_t* memory(const CO_CAN_FDCAN& can) { return can.Ram + can.RamOffset; }
@@ -199,7 +199,7 @@ class Driver {
     disable_extended(ram, extended_filters - 1);
   }
 
-  // On and off the bus ------------------------------------------------------------------------------------------------
+  // Joining and leaving the bus ---------------------------------------------------------------------------------------
 
   static const CO_CAN_FDCAN_RATE* find_rate(const CO_CAN_FDCAN& can, std::uint32_t baud) {
     for (unsigned n = 0; n < can.RateNum; ++n) {
@@ -211,32 +211,32 @@ class Driver {
   }
 
   // Disables the interrupts. The read-back ensures that the write has reached the controller, so none follows.
-  static void silence(const CO_CAN_FDCAN& can) {
+  static void disable_interrupts(const CO_CAN_FDCAN& can) {
     write(registers(can).Ie, 0);
     static_cast<void>(read(registers(can).Ie));
   }
 
   // Goes off the bus after the frame on the wire, and enables changes of the configuration. The mode bits of CCCR are
   // write-protected until both INIT and CCE are set, so they are written unchanged. [M_CAN, 2.3.7]
-  static void go_off_the_bus(CO_CAN_FDCAN& can) {
+  static void leave_bus(CO_CAN_FDCAN& can) {
     Registers& regs = registers(can);
-    silence(can);
+    disable_interrupts(can);
     can.Rate = nullptr;
     if ((read(regs.Cccr) & CO_FDCAN_CCCR_INIT) == 0) {
       write(regs.Txbcr, transmit::all_mailboxes);
-      static_cast<void>(await(regs.Txbrp, transmit::all_mailboxes, 0));
+      static_cast<void>(await_bits(regs.Txbrp, transmit::all_mailboxes, 0));
     }
     write(regs.Cccr, read(regs.Cccr) | CO_FDCAN_CCCR_INIT);
-    static_cast<void>(await(regs.Cccr, CO_FDCAN_CCCR_INIT, CO_FDCAN_CCCR_INIT));
+    static_cast<void>(await_bits(regs.Cccr, CO_FDCAN_CCCR_INIT, CO_FDCAN_CCCR_INIT));
     write(regs.Cccr, read(regs.Cccr) | CO_FDCAN_CCCR_CCE);
     transmit::forget(can.Transmit);
   }
 
-  static void go_on_the_bus(CO_CAN_FDCAN& can, const CO_CAN_FDCAN_RATE& rate) {
+  static void join_bus(CO_CAN_FDCAN& can, const CO_CAN_FDCAN_RATE& rate) {
     Registers& regs = registers(can);
     const std::uint32_t mode =
         CO_FDCAN_CCCR_FDOE | (can.Loopback ? CO_FDCAN_CCCR_TEST | CO_FDCAN_CCCR_MON : std::uint32_t{0});
-    go_off_the_bus(can);
+    leave_bus(can);
     discard_received(can);
     write(regs.Nbtp, rate.Timing);
     if (can.DataTiming != 0) {
@@ -251,9 +251,9 @@ class Driver {
     write(regs.Txbcie, transmit::all_mailboxes);
     write(regs.Ils, 0);
     write(regs.Ile, CO_FDCAN_ILE_LINE0);
-    write(regs.Ir, wanted);
+    write(regs.Ir, enabled_on_bus);
     can.Rate = &rate;
-    write(regs.Ie, wanted);
+    write(regs.Ie, enabled_on_bus);
     write(regs.Cccr, mode);
   }
 
@@ -275,7 +275,7 @@ class Driver {
 
   static void init(void* ctx) {
     CO_CAN_FDCAN& can = controller(ctx);
-    go_off_the_bus(can);
+    leave_bus(can);
     volatile std::uint32_t* const ram = memory(can);
     for (unsigned n = 0; n < Variant::words(can); ++n) {
       write(ram[n], 0);
@@ -289,10 +289,10 @@ class Driver {
     const CO_CAN_FDCAN_RATE* const rate = find_rate(can, baud);
     can.Report.Reported = static_cast<std::uint8_t>(State::active);
     if (rate == nullptr) {
-      go_off_the_bus(can);
+      leave_bus(can);
       return;
     }
-    go_on_the_bus(can, *rate);
+    join_bus(can, *rate);
   }
 
   static std::int16_t read_driver(void* ctx, CO_IF_FRM* frm) {
@@ -300,7 +300,7 @@ class Driver {
     if (can.Rate == nullptr) {
       return 0;
     }
-    return report_events(can, *frm) || CORingGet(&can.Received, frm) ? taken : std::int16_t{0};
+    return report_events(can, *frm) || CORingGet(&can.Received, frm) ? one_frame : std::int16_t{0};
   }
 
   static std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
@@ -312,10 +312,10 @@ class Driver {
       return 0;  // the controller has not left the initialisation yet
     }
     Buffers buffers(can);
-    write(registers(can).Ie, always_wanted);
+    write(registers(can).Ie, always_enabled);
     const bool accepted = transmit::accept(can.Transmit, buffers, *frm);
-    write(registers(can).Ie, wanted);
-    return accepted ? taken : std::int16_t{0};
+    write(registers(can).Ie, enabled_on_bus);
+    return accepted ? one_frame : std::int16_t{0};
   }
 
   static void reset(void* ctx) {
@@ -324,17 +324,17 @@ class Driver {
       return;
     }
     if ((read(registers(can).Psr) & CO_FDCAN_PSR_BO) != 0) {
-      go_on_the_bus(can, *can.Rate);
+      join_bus(can, *can.Rate);
       return;
     }
-    silence(can);
+    disable_interrupts(can);
     Buffers buffers(can);
     transmit::drop(can.Transmit, buffers);
     discard_received(can);
-    write(registers(can).Ie, wanted);
+    write(registers(can).Ie, enabled_on_bus);
   }
 
-  static void close(void* ctx) { go_off_the_bus(controller(ctx)); }
+  static void close(void* ctx) { leave_bus(controller(ctx)); }
 
   static void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
     set_filters(controller(ctx), filters_of(ids, num));
@@ -358,8 +358,8 @@ class Driver {
         write(regs.Cccr, read(regs.Cccr) & ~CO_FDCAN_CCCR_INIT);
       }
     }
-    const bool has_displaced = can.Transmit.DisplacedNum != 0 && (enabled & of_transmission) != 0;
-    if ((active & of_transmission) != 0 || has_displaced) {
+    const bool has_displaced = can.Transmit.DisplacedNum != 0 && (enabled & transmit_interrupts) != 0;
+    if ((active & transmit_interrupts) != 0 || has_displaced) {
       Buffers buffers(can);
       transmit::finish(can.Transmit, buffers);
     }

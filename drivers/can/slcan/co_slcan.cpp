@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "co_slcan.h"
 
+#include "../atomic.hpp"
+
 namespace {
 
-constexpr int16_t taken = sizeof(CO_IF_FRM);
+constexpr int16_t one_frame = sizeof(CO_IF_FRM);
 constexpr uint8_t end_of_line = '\r';
 constexpr uint8_t bell = 7;
 
@@ -19,17 +21,8 @@ constexpr CO_IF_FRM overflow = {CO_IF_FRM_ERROR | 0x04U, {0, 0x01, 0, 0, 0, 0, 0
 
 constexpr uint32_t bit_rates[] = {10000, 20000, 50000, 100000, 125000, 250000, 500000, 800000, 1000000};
 
-// --- Data shared between contexts
-
-template <typename Number>
-Number load(const Number& number) {
-  return __atomic_load_n(&number, __ATOMIC_ACQUIRE);
-}
-
-template <typename Number>
-void store(Number& number, Number value) {
-  __atomic_store_n(&number, value, __ATOMIC_RELEASE);
-}
+using co::atomic::load;
+using co::atomic::store;
 
 void count(uint16_t& counter) {
   if (counter != UINT16_MAX) {
@@ -57,21 +50,21 @@ class Reader {
   uint32_t number(unsigned digits) {
     uint32_t value = 0;
     for (; digits != 0; --digits) {
-      const uint8_t next = place_ < length_ ? digit(text_[place_]) : no_digit;
+      const uint8_t next = position_ < length_ ? digit(text_[position_]) : no_digit;
       good_ = good_ && next != no_digit;
       value = value << 4 | (next & 15U);
-      ++place_;
+      ++position_;
     }
     return value;
   }
 
   bool good() const { return good_; }
-  unsigned left() const { return length_ - place_; }
+  unsigned left() const { return length_ - position_; }
 
  private:
   const uint8_t* text_;
   unsigned length_;
-  unsigned place_ = 0;
+  unsigned position_ = 0;
   bool good_ = true;
 };
 
@@ -96,7 +89,7 @@ bool decode(Reader& line, bool extended, bool remote, CO_IF_FRM& frame) {
   return line.good() && line.left() == 0;
 }
 
-void take_frame(CO_SLCAN& can, bool extended, bool remote) {
+void receive_frame(CO_SLCAN& can, bool extended, bool remote) {
   CO_IF_FRM frame;
   Reader line(can.Line + 1, static_cast<uint8_t>(can.LineLen - 1));
   if (!decode(line, extended, remote, frame)) {
@@ -107,7 +100,7 @@ void take_frame(CO_SLCAN& can, bool extended, bool remote) {
 }
 
 // Returns true for an answer of the adapter (it has accepted a frame) and for a command of a peer; both are ignored.
-bool is_passed_over(const CO_SLCAN& can) {
+bool is_ignored(const CO_SLCAN& can) {
   switch (can.Line[0]) {
     case 'z':
     case 'Z':
@@ -118,7 +111,7 @@ bool is_passed_over(const CO_SLCAN& can) {
   }
 }
 
-void take_line(CO_SLCAN& can) {
+void process_line(CO_SLCAN& can) {
   if (can.LineLen == 0) {
     return;  // empty line: the adapter's positive answer
   }
@@ -127,12 +120,12 @@ void take_line(CO_SLCAN& can) {
     return;
   }
   switch (can.Line[0]) {
-    case 't': return take_frame(can, false, false);
-    case 'T': return take_frame(can, true, false);
-    case 'r': return take_frame(can, false, true);
-    case 'R': return take_frame(can, true, true);
+    case 't': return receive_frame(can, false, false);
+    case 'T': return receive_frame(can, true, false);
+    case 'r': return receive_frame(can, false, true);
+    case 'R': return receive_frame(can, true, true);
     default:
-      if (!is_passed_over(can)) {
+      if (!is_ignored(can)) {
         count(can.Malformed);
       }
   }
@@ -140,7 +133,7 @@ void take_line(CO_SLCAN& can) {
 
 void receive(CO_SLCAN& can, uint8_t byte) {
   if (byte == end_of_line) {
-    take_line(can);
+    process_line(can);
     can.LineLen = 0;
   } else if (byte == bell) {
     count(can.Refused);
@@ -158,7 +151,7 @@ void receive(CO_SLCAN& can, uint8_t byte) {
 
 constexpr uint8_t mask = CO_SLCAN_TX_BYTES - 1;
 
-uint8_t waiting(const CO_SLCAN& can) { return static_cast<uint8_t>(load(can.TxHead) - load(can.TxTail)); }
+uint8_t bytes_to_send(const CO_SLCAN& can) { return static_cast<uint8_t>(load(can.TxHead) - load(can.TxTail)); }
 
 // Appends a line to the transmit buffer and publishes it when it is complete. The caller has checked the free space.
 class Writer {
@@ -182,22 +175,24 @@ class Writer {
   uint8_t head_;
 };
 
-struct Form {
+struct FrameForm {
   bool extended;
   bool remote;
   uint8_t length;
 };
 
 // An identifier above 7FFh is sent with 29 bits: truncated to 11 bits it would be another message.
-Form form_of(const CO_IF_FRM& frame) {
+FrameForm form_of(const CO_IF_FRM& frame) {
   const bool extended = (frame.Identifier & CO_IF_FRM_EXT) != 0 || (frame.Identifier & CO_IF_FRM_ID) > 0x7FF;
   const bool remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
   return {extended, remote, frame.DLC < sizeof frame.Data ? frame.DLC : static_cast<uint8_t>(sizeof frame.Data)};
 }
 
-uint32_t characters(const Form& form) { return (form.extended ? 11U : 6U) + (form.remote ? 0U : 2U * form.length); }
+uint32_t characters(const FrameForm& form) {
+  return (form.extended ? 11U : 6U) + (form.remote ? 0U : 2U * form.length);
+}
 
-void write_frame(CO_SLCAN& can, const CO_IF_FRM& frame, const Form& form) {
+void write_frame(CO_SLCAN& can, const CO_IF_FRM& frame, const FrameForm& form) {
   const char letter = form.remote ? 'r' : 't';
   Writer line(can);
   line.character(static_cast<uint8_t>(form.extended ? letter - 'a' + 'A' : letter));
@@ -229,7 +224,7 @@ void write_bit_rate(CO_SLCAN& can, uint32_t baud) {
   }
 }
 
-void start(const CO_SLCAN& can) {
+void start_transmission(const CO_SLCAN& can) {
   if (can.Start != nullptr) {
     can.Start(can.Ctx);
   }
@@ -244,9 +239,9 @@ void reset(void* ctx) { CORingClear(&slcan(ctx).Frames); }
 void close(void* ctx) {
   CO_SLCAN& can = slcan(ctx);
   store(can.Open, static_cast<uint8_t>(0));
-  if (CO_SLCAN_TX_BYTES - waiting(can) >= 2) {
+  if (CO_SLCAN_TX_BYTES - bytes_to_send(can) >= 2) {
     write_command(can, 'C');
-    start(can);
+    start_transmission(can);
   }
 }
 
@@ -259,24 +254,24 @@ void enable(void* ctx, uint32_t baud) {
   CO_SLCAN& can = slcan(ctx);
   CORingClear(&can.Frames);
   store(can.Open, static_cast<uint8_t>(1));
-  if (CO_SLCAN_TX_BYTES - waiting(can) < 7) {
+  if (CO_SLCAN_TX_BYTES - bytes_to_send(can) < 7) {
     return;  // no free space: the UART does not transmit
   }
   write_command(can, 'C');
   write_bit_rate(can, baud != 0 ? baud : can.Baud);
   write_command(can, 'O');
-  start(can);
+  start_transmission(can);
 }
 
 int16_t read(void* ctx, CO_IF_FRM* frm) {
   CO_SLCAN& can = slcan(ctx);
   const uint16_t lost = CORingLost(&can.Frames);
-  if (lost != can.LostSeen) {
-    can.LostSeen = lost;
+  if (lost != can.ReportedLost) {
+    can.ReportedLost = lost;
     *frm = overflow;
-    return taken;
+    return one_frame;
   }
-  return CORingGet(&can.Frames, frm) ? taken : static_cast<int16_t>(0);
+  return CORingGet(&can.Frames, frm) ? one_frame : static_cast<int16_t>(0);
 }
 
 int16_t send(void* ctx, const CO_IF_FRM* frm) {
@@ -284,29 +279,29 @@ int16_t send(void* ctx, const CO_IF_FRM* frm) {
   if (load(can.Open) == 0) {
     return -1;
   }
-  const Form form = form_of(*frm);
-  const bool room = waiting(can) + characters(form) + room_for_commands <= CO_SLCAN_TX_BYTES;
+  const FrameForm form = form_of(*frm);
+  const bool room = bytes_to_send(can) + characters(form) + room_for_commands <= CO_SLCAN_TX_BYTES;
   can.Busy = room ? 0 : 1;
   if (!room) {
     return 0;
   }
   write_frame(can, *frm, form);
-  start(can);
-  return taken;
+  start_transmission(can);
+  return one_frame;
 }
 
 }  // namespace
 
 extern "C" {
 
-bool COSlcanInit(CO_SLCAN* can, CO_IF_FRM* mem, uint16_t num, void (*start)(void* ctx), void* ctx) {
+bool COSlcanInit(CO_SLCAN* can, CO_IF_FRM* mem, uint16_t num, void (*start_transmission)(void* ctx), void* ctx) {
   if (can == nullptr) {
     return false;
   }
   *can = {};
-  can->Start = start;
+  can->Start = start_transmission;
   can->Ctx = ctx;
-  return CORingInit(&can->Frames, mem, num) && start != nullptr;
+  return CORingInit(&can->Frames, mem, num) && start_transmission != nullptr;
 }
 
 void COSlcanReceive(CO_SLCAN* can, uint8_t byte) { receive(*can, byte); }
@@ -315,7 +310,7 @@ void COSlcanBroken(CO_SLCAN* can) { can->LineLen = broken; }
 
 uint32_t COSlcanPending(const CO_SLCAN* can, const uint8_t** bytes) {
   const uint32_t first = can->TxTail & mask;
-  const uint32_t num = waiting(*can);
+  const uint32_t num = bytes_to_send(*can);
   *bytes = can->Tx + first;
   return num < CO_SLCAN_TX_BYTES - first ? num : CO_SLCAN_TX_BYTES - first;
 }
@@ -323,8 +318,9 @@ uint32_t COSlcanPending(const CO_SLCAN* can, const uint8_t** bytes) {
 void COSlcanSent(CO_SLCAN* can, uint32_t num) { store(can->TxTail, static_cast<uint8_t>(can->TxTail + num)); }
 
 bool COSlcanIsDue(const CO_SLCAN* can) {
-  const bool has_room = waiting(*can) + CO_SLCAN_LINE + 1 + room_for_commands <= CO_SLCAN_TX_BYTES;
-  return CORingCount(&can->Frames) != 0 || CORingLost(&can->Frames) != can->LostSeen || (can->Busy != 0 && has_room);
+  const bool has_room = bytes_to_send(*can) + CO_SLCAN_LINE + 1 + room_for_commands <= CO_SLCAN_TX_BYTES;
+  return CORingCount(&can->Frames) != 0 || CORingLost(&can->Frames) != can->ReportedLost ||
+         (can->Busy != 0 && has_room);
 }
 
 uint16_t COSlcanMalformed(const CO_SLCAN* can) { return load(can->Malformed); }

@@ -50,7 +50,7 @@ typedef struct CO_SLCAN_T {
   void (*Start)(void* ctx);       ///< called by Send, Enable and Close when there is text to send
   void* Ctx;                      ///< argument of Start
   CO_RING Frames;                 ///< received frames
-  uint16_t LostSeen;              ///< lost frames (ring full) that Read has reported
+  uint16_t ReportedLost;          ///< lost frames (ring full) that Read has reported
   uint16_t Malformed;             ///< invalid lines; written by the receiving context only
   uint16_t Refused;               ///< lines that the adapter has refused; written by the receiving context only
   uint8_t Open;                   ///< 1: on the bus, frames are received; written by the loop only

@@ -15,20 +15,20 @@
 namespace co {
 namespace {
 
-constexpr std::int16_t taken = sizeof(CO_IF_FRM);
+constexpr std::int16_t one_frame = sizeof(CO_IF_FRM);
 
 // Errors that the node processes. Single bus errors are left out: they may flood the receive queue.
 constexpr can_err_mask_t reported_errors = CAN_ERR_BUSOFF | CAN_ERR_CRTL | CAN_ERR_RESTARTED;
 
-// More frames than a receive queue holds: drain() must end on a bus that is faster than this loop.
-constexpr int drain_limit = 4096;
+// More frames than a receive queue holds: discard_received() must end on a bus that is faster than this loop.
+constexpr int discard_limit = 4096;
 
 // Returns true for errors after which the call can be repeated.
-bool not_now(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == ENOBUFS || error == EINTR; }
+bool is_temporary(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == ENOBUFS || error == EINTR; }
 
 // Returns true if the device of the socket no longer exists. The socket stays unusable even if a device of this name
 // returns.
-bool vanished(int error) { return error == ENODEV || error == ENXIO; }
+bool is_missing(int error) { return error == ENODEV || error == ENXIO; }
 
 CO_IF_FRM overflow_frame() {
   return {CO_IF_FRM_ERROR | CAN_ERR_CRTL, {0, CAN_ERR_CRTL_RX_OVERFLOW, 0, 0, 0, 0, 0, 0}, CAN_ERR_DLC};
@@ -47,10 +47,10 @@ bool set_option(int fd, int level, int name, const Value& value) {
 
 }  // namespace
 
-SocketCan::~SocketCan() { release(); }
+SocketCan::~SocketCan() { close_socket(); }
 
 bool SocketCan::open(const std::string& interface) {
-  release();
+  close_socket();
   interface_ = interface;
   code_ = 0;
   error_.clear();
@@ -59,7 +59,7 @@ bool SocketCan::open(const std::string& interface) {
 }
 
 void SocketCan::close() {
-  release();
+  close_socket();
   on_bus_ = false;
 }
 
@@ -68,11 +68,11 @@ bool SocketCan::up() const {
   return fd_ >= 0 && request(fd_, SIOCGIFFLAGS, interface_, answer) && (answer.ifr_flags & IFF_UP) != 0;
 }
 
-void SocketCan::init() { drain(); }
+void SocketCan::init() { discard_received(); }
 
 void SocketCan::enable() {
   if (fd_ >= 0) {
-    drain();
+    discard_received();
     return;
   }
   open_socket();
@@ -80,41 +80,41 @@ void SocketCan::enable() {
 }
 
 std::int16_t SocketCan::read(CO_IF_FRM& frame) {
-  if (!present()) {
+  if (!open_if_missing()) {
     return 0;
   }
   if (overrun_) {
     overrun_ = false;
     frame = overflow_frame();
-    return taken;
+    return one_frame;
   }
   can_frame raw{};
   const long bytes = receive(raw);
   if (bytes < 0) {
-    return not_now(errno) ? std::int16_t{0} : failed("receiving", errno);
+    return is_temporary(errno) ? std::int16_t{0} : fail_transfer("receiving", errno);
   }
   if (bytes != static_cast<long>(sizeof raw)) {
-    return failed("receiving", EBADMSG);
+    return fail_transfer("receiving", EBADMSG);
   }
   frame = from_socketcan(raw);
-  return taken;
+  return one_frame;
 }
 
 std::int16_t SocketCan::send(const CO_IF_FRM& frame) {
-  if (!present()) {
+  if (!open_if_missing()) {
     return -1;
   }
   const can_frame raw = to_socketcan(frame);
   const ssize_t bytes = ::send(fd_, &raw, sizeof raw, MSG_DONTWAIT);
   if (bytes < 0) {
-    return not_now(errno) ? std::int16_t{0} : failed("sending", errno);
+    return is_temporary(errno) ? std::int16_t{0} : fail_transfer("sending", errno);
   }
-  return taken;
+  return one_frame;
 }
 
 void SocketCan::reset() {
-  if (present()) {
-    drain();
+  if (open_if_missing()) {
+    discard_received();
   }
 }
 
@@ -122,24 +122,24 @@ void SocketCan::filter(const std::uint32_t* ids, std::uint16_t num) {
   filters_ = socketcan_filters(ids, num);
   filtered_ = true;
   if (fd_ >= 0 && !apply_filters()) {
-    fail(SocketCanStep::option, errno);
+    fail_opening(SocketCanStep::option, errno);
   }
 }
 
 bool SocketCan::open_socket() {
   if (interface_.empty() || interface_.size() >= IFNAMSIZ) {
-    return fail(SocketCanStep::name, EINVAL);
+    return fail_opening(SocketCanStep::name, EINVAL);
   }
   fd_ = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   lost_on_socket_ = 0;
   if (fd_ < 0) {
-    return fail(SocketCanStep::socket, errno);
+    return fail_opening(SocketCanStep::socket, errno);
   }
   // The options have to be set before the socket is bound, because a bound socket receives at once.
   if (set_options() && bind_to_interface()) {
     return true;
   }
-  release();
+  close_socket();
   return false;
 }
 
@@ -149,7 +149,7 @@ bool SocketCan::set_options() {
   const bool done = apply_filters() && set_option(fd_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, reported_errors) &&
                     set_option(fd_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, off) &&
                     set_option(fd_, SOL_SOCKET, SO_RXQ_OVFL, on);
-  return done || fail(SocketCanStep::option, errno);
+  return done || fail_opening(SocketCanStep::option, errno);
 }
 
 bool SocketCan::apply_filters() {
@@ -163,21 +163,21 @@ bool SocketCan::apply_filters() {
 bool SocketCan::bind_to_interface() {
   ifreq answer{};
   if (!request(fd_, SIOCGIFINDEX, interface_, answer)) {
-    return fail(SocketCanStep::interface, errno);
+    return fail_opening(SocketCanStep::interface, errno);
   }
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = answer.ifr_ifindex;
   if (::bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    return fail(SocketCanStep::bind, errno);
+    return fail_opening(SocketCanStep::bind, errno);
   }
   return true;
 }
 
 // Returns true if there is a socket. Opens the interface again if it had vanished.
-bool SocketCan::present() { return fd_ >= 0 || (on_bus_ && open_socket()); }
+bool SocketCan::open_if_missing() { return fd_ >= 0 || (on_bus_ && open_socket()); }
 
-void SocketCan::release() {
+void SocketCan::close_socket() {
   if (fd_ >= 0) {
     ::close(fd_);
   }
@@ -185,16 +185,16 @@ void SocketCan::release() {
   overrun_ = false;
 }
 
-void SocketCan::drain() {
+void SocketCan::discard_received() {
   can_frame raw{};
-  for (int i = 0; i < drain_limit && fd_ >= 0; ++i) {
+  for (int i = 0; i < discard_limit && fd_ >= 0; ++i) {
     if (receive(raw) >= 0) {
       continue;
     }
-    if (not_now(errno)) {
+    if (is_temporary(errno)) {
       break;
     }
-    failed("receiving", errno);  // a pending error hides the frames behind it
+    fail_transfer("receiving", errno);  // a pending error hides the frames behind it
   }
   overrun_ = false;
 }
@@ -212,13 +212,13 @@ long SocketCan::receive(can_frame& frame) {
   if (extra != nullptr && extra->cmsg_level == SOL_SOCKET && extra->cmsg_type == SO_RXQ_OVFL) {
     std::uint32_t total = 0;
     std::memcpy(&total, CMSG_DATA(extra), sizeof total);
-    note_lost(total);
+    count_lost(total);
   }
   return bytes;
 }
 
 // Adds the frames that the kernel has lost since the last call. \a total: its counter for this socket.
-void SocketCan::note_lost(std::uint32_t total) {
+void SocketCan::count_lost(std::uint32_t total) {
   const std::uint32_t more = total - lost_on_socket_;
   lost_on_socket_ = total;
   lost_ += more;
@@ -226,18 +226,18 @@ void SocketCan::note_lost(std::uint32_t total) {
 }
 
 // Stores the error of a step of opening, and its text. Returns false. open_socket() closes the socket then.
-bool SocketCan::fail(SocketCanStep step, int error) {
+bool SocketCan::fail_opening(SocketCanStep step, int error) {
   code_ = error;
   error_ = socketcan_error(step, error, interface_);
   return false;
 }
 
 // Stores the error of a transfer and its text. Closes the socket if the interface has vanished. Returns -1.
-std::int16_t SocketCan::failed(const char* action, int error) {
+std::int16_t SocketCan::fail_transfer(const char* action, int error) {
   code_ = error;
   error_ = "CAN interface '" + interface_ + "': " + action + " failed: " + std::generic_category().message(error);
-  if (vanished(error)) {
-    release();
+  if (is_missing(error)) {
+    close_socket();
   }
   return -1;
 }

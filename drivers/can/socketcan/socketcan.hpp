@@ -97,13 +97,13 @@ class SocketCan {
   bool set_options();
   bool apply_filters();
   bool bind_to_interface();
-  bool present();
-  void release();
-  void drain();
+  bool open_if_missing();
+  void close_socket();
+  void discard_received();
   long receive(can_frame& frame);
-  void note_lost(std::uint32_t total);
-  bool fail(SocketCanStep step, int error);
-  std::int16_t failed(const char* action, int error);
+  void count_lost(std::uint32_t total);
+  bool fail_opening(SocketCanStep step, int error);
+  std::int16_t fail_transfer(const char* action, int error);
 
   std::string interface_;
   std::string error_;

@@ -28,14 +28,14 @@ std::uint32_t arbitration(const CO_IF_FRM& frame) {
 }
 
 // Returns true for faults that are results of send().
-bool seen_by_sender(VirtualBus::Fault fault) {
+bool is_result_of_send(VirtualBus::Fault fault) {
   return fault == VirtualBus::Fault::refuse || fault == VirtualBus::Fault::error || fault == VirtualBus::Fault::bus_off;
 }
 
 }  // namespace
 
-VirtualBus::VirtualBus() : outside_(std::make_unique<Port>(*this, Options{"outside", 0, SIZE_MAX, false})) {
-  outside_->enable();
+VirtualBus::VirtualBus() : injector_(std::make_unique<Port>(*this, Options{"outside", 0, SIZE_MAX, false})) {
+  injector_->enable();
 }
 
 VirtualBus::~VirtualBus() = default;
@@ -49,7 +49,7 @@ VirtualBus::Port& VirtualBus::attach() { return attach(Options{}); }
 
 void VirtualBus::inject(const CO_IF_FRM& frame) {
   if (!is_error(frame)) {
-    outside_->send(frame);
+    injector_->send(frame);
     return;
   }
   for (const auto& port : ports_) {
@@ -84,13 +84,13 @@ void VirtualBus::hold() { held_ = true; }
 void VirtualBus::release() {
   held_ = false;
   not_before_ = now();
-  run();
+  transmit_due();
 }
 
-void VirtualBus::poll() { run(); }
+void VirtualBus::poll() { transmit_due(); }
 
 VirtualBus::Time VirtualBus::next_due() const {
-  return std::min(late_.empty() ? never : late_.front().due, next_arrival());
+  return std::min(delayed_.empty() ? never : delayed_.front().due, next_arrival());
 }
 
 CO_IF_FRM VirtualBus::error_frame(std::uint32_t error_class, std::uint8_t controller) {
@@ -98,12 +98,12 @@ CO_IF_FRM VirtualBus::error_frame(std::uint32_t error_class, std::uint8_t contro
 }
 
 // Counts a frame in all rules of a phase that match it. Returns the rule whose fault affects the frame; null: none.
-const VirtualBus::Rule* VirtualBus::strike(const Traffic& traffic, Phase phase) {
+const VirtualBus::Rule* VirtualBus::apply_rules(const Traffic& traffic, Phase phase) {
   CountedRule* decides = nullptr;
   for (std::size_t i = 0; i < rules_.size(); ++i) {  // by index: a match may add rules
     CountedRule& counted = rules_[i];
     const Rule& rule = counted.rule;
-    if (seen_by_sender(rule.fault) != (phase == Phase::send) || (rule.match && !rule.match(traffic))) {
+    if (is_result_of_send(rule.fault) != (phase == Phase::send) || (rule.match && !rule.match(traffic))) {
       continue;
     }
     ++counted.seen;
@@ -120,8 +120,8 @@ const VirtualBus::Rule* VirtualBus::strike(const Traffic& traffic, Phase phase) 
 }
 
 // Returns the port whose first frame wins the arbitration; null if no frame is queued.
-VirtualBus::Port* VirtualBus::winner() const {
-  Port* best = outside_->transmit_.empty() ? nullptr : outside_.get();
+VirtualBus::Port* VirtualBus::arbitration_winner() const {
+  Port* best = injector_->transmit_.empty() ? nullptr : injector_.get();
   for (const auto& port : ports_) {
     if (port->transmit_.empty()) {
       continue;
@@ -135,27 +135,27 @@ VirtualBus::Port* VirtualBus::winner() const {
 
 // Transmits and delivers everything that is due. Has no effect when it is called by a trace hook or rule, whose frames
 // the outer call transmits.
-void VirtualBus::run() {
+void VirtualBus::transmit_due() {
   if (held_ || running_) {
     return;
   }
   running_ = true;
   deliver_due();
   if (wire_) {
-    run_paced();
+    transmit_paced();
   } else {
-    run_at_once();
+    transmit_unpaced();
   }
   running_ = false;
 }
 
-void VirtualBus::run_at_once() {
-  for (Port* port = winner(); port != nullptr && !held_; port = winner()) {
-    transmit(take_from(*port), port);
+void VirtualBus::transmit_unpaced() {
+  for (Port* port = arbitration_winner(); port != nullptr && !held_; port = arbitration_winner()) {
+    transmit(remove_first(*port), port);
   }
 }
 
-void VirtualBus::run_paced() {
+void VirtualBus::transmit_paced() {
   while (!held_ && (on_wire_ || start_frame()) && wire_->received() <= now()) {
     const OnWire over = *on_wire_;
     on_wire_.reset();
@@ -165,17 +165,17 @@ void VirtualBus::run_paced() {
 
 // Does not start a frame at now(): all frames sent at that time take part in the arbitration.
 bool VirtualBus::start_frame() {
-  Port* const port = winner();
+  Port* const port = arbitration_winner();
   if (port == nullptr || start_of_frame() >= now()) {
     return false;
   }
   const Time start = start_of_frame();
-  on_wire_ = OnWire{take_from(*port), port};
+  on_wire_ = OnWire{remove_first(*port), port};
   wire_->occupy(start, frame_bits(on_wire_->frame));
   return true;
 }
 
-CO_IF_FRM VirtualBus::take_from(Port& port) {
+CO_IF_FRM VirtualBus::remove_first(Port& port) {
   const CO_IF_FRM frame = port.transmit_.front();
   port.transmit_.pop_front();
   return frame;
@@ -190,7 +190,7 @@ VirtualBus::Time VirtualBus::next_arrival() const {
   if (on_wire_) {
     return wire_->received();
   }
-  const Port* const port = winner();
+  const Port* const port = arbitration_winner();
   if (port == nullptr) {
     return never;
   }
@@ -200,22 +200,22 @@ VirtualBus::Time VirtualBus::next_arrival() const {
 }
 
 // Called before the queue of a port changes: starts the frames that were due, so that none starts in the past.
-void VirtualBus::catch_up() {
+void VirtualBus::start_due_frames() {
   if (wire_) {
-    run();
+    transmit_due();
     not_before_ = now();
   }
 }
 
 void VirtualBus::transmit(const CO_IF_FRM& frame, const Port* sender) {
-  const Rule* const rule = strike({frame, visible(*sender), now()}, Phase::bus);
+  const Rule* const rule = apply_rules({frame, sender_for_traffic(*sender), now()}, Phase::bus);
   const Fault fault = (rule != nullptr) ? rule->fault : Fault::none;
   if (fault == Fault::delay || fault == Fault::reorder) {
-    postpone(frame, sender, *rule);
+    delay_frame(frame, sender, *rule);
     return;
   }
   if (fault == Fault::drop) {
-    trace(frame, sender, true);
+    trace_frame(frame, sender, true);
   } else {
     deliver(frame, sender);
   }
@@ -225,68 +225,68 @@ void VirtualBus::transmit(const CO_IF_FRM& frame, const Port* sender) {
   deliver_reordered(sender);
 }
 
-void VirtualBus::postpone(const CO_IF_FRM& frame, const Port* sender, const Rule& rule) {
+void VirtualBus::delay_frame(const CO_IF_FRM& frame, const Port* sender, const Rule& rule) {
   const bool behind_next = rule.fault == Fault::reorder;
   const Time due = (behind_next && rule.delay == Time{0}) ? never : now() + rule.delay;
-  const auto after =
-      std::upper_bound(late_.begin(), late_.end(), due, [](Time time, const Late& late) { return time < late.due; });
-  late_.insert(after, {frame, sender, due, behind_next});
+  const auto after = std::upper_bound(delayed_.begin(), delayed_.end(), due,
+                                      [](Time time, const DelayedFrame& delayed) { return time < delayed.due; });
+  delayed_.insert(after, {frame, sender, due, behind_next});
 }
 
 void VirtualBus::deliver(const CO_IF_FRM& frame, const Port* sender) {
-  trace(frame, sender, false);
+  trace_frame(frame, sender, false);
   for (const auto& port : ports_) {
-    if (port.get() != sender && port->hears(*sender)) {
+    if (port.get() != sender && port->receives_from(*sender)) {
       port->receive(frame);
     }
   }
 }
 
-void VirtualBus::trace(const CO_IF_FRM& frame, const Port* sender, bool dropped) const {
+void VirtualBus::trace_frame(const CO_IF_FRM& frame, const Port* sender, bool dropped) const {
   if (trace_) {
-    trace_({frame, visible(*sender), now(), dropped});
+    trace_({frame, sender_for_traffic(*sender), now(), dropped});
   }
 }
 
 void VirtualBus::deliver_due() {
-  deliver_first([this](const Late& late) { return late.due != never && late.due <= now(); });
+  deliver_if([this](const DelayedFrame& delayed) { return delayed.due != never && delayed.due <= now(); });
 }
 
 void VirtualBus::deliver_reordered(const Port* sender) {
-  deliver_first([sender](const Late& late) { return late.behind_next && late.sender == sender; });
+  deliver_if([sender](const DelayedFrame& delayed) { return delayed.behind_next && delayed.sender == sender; });
 }
 
 // Searches again after every delivery: the trace hook may have added rules or advanced the time.
-void VirtualBus::deliver_first(const std::function<bool(const Late&)>& ready) {
-  for (auto it = std::find_if(late_.begin(), late_.end(), ready); it != late_.end();
-       it = std::find_if(late_.begin(), late_.end(), ready)) {
-    const Late late = *it;
-    late_.erase(it);
-    deliver(late.frame, late.sender);
+void VirtualBus::deliver_if(const std::function<bool(const DelayedFrame&)>& ready) {
+  for (auto it = std::find_if(delayed_.begin(), delayed_.end(), ready); it != delayed_.end();
+       it = std::find_if(delayed_.begin(), delayed_.end(), ready)) {
+    const DelayedFrame delayed = *it;
+    delayed_.erase(it);
+    deliver(delayed.frame, delayed.sender);
   }
 }
 
 // Returns a port for Traffic::sender: null for the port of inject().
-const VirtualBus::Port* VirtualBus::visible(const Port& port) const {
-  return (&port == outside_.get()) ? nullptr : &port;
+const VirtualBus::Port* VirtualBus::sender_for_traffic(const Port& port) const {
+  return (&port == injector_.get()) ? nullptr : &port;
 }
 
 VirtualBus::Port::Port(VirtualBus& bus, Options options) : bus_(bus), options_(std::move(options)) {}
 
 void VirtualBus::Port::enable(std::uint32_t baud) {
-  empty();
+  clear_queues();
   baud_ = baud;
   enabled_ = true;
   bus_off_ = false;
 }
 
 void VirtualBus::Port::close() {
-  empty();
+  clear_queues();
   enabled_ = false;
 }
 
 void VirtualBus::Port::reset() {
-  empty();
+  clear_queues();
   recover();
 }
 
@@ -294,8 +294,8 @@ std::int16_t VirtualBus::Port::send(const CO_IF_FRM& frame) {
   if (!active()) {
     return -1;
   }
-  bus_.catch_up();
-  const Rule* const rule = bus_.strike({frame, bus_.visible(*this), bus_.now()}, Phase::send);
+  bus_.start_due_frames();
+  const Rule* const rule = bus_.apply_rules({frame, bus_.sender_for_traffic(*this), bus_.now()}, Phase::send);
   const Fault fault = (rule != nullptr) ? rule->fault : Fault::none;
   if (fault == Fault::bus_off) {
     bus_off();
@@ -307,12 +307,12 @@ std::int16_t VirtualBus::Port::send(const CO_IF_FRM& frame) {
     return 0;
   }
   transmit_.push_back(frame);
-  bus_.run();
+  bus_.transmit_due();
   return sizeof(CO_IF_FRM);
 }
 
 std::optional<CO_IF_FRM> VirtualBus::Port::read() {
-  bus_.run();
+  bus_.transmit_due();
   if (overrun_) {
     overrun_ = false;
     return error_frame(error_controller, controller_rx_overflow);
@@ -341,7 +341,7 @@ void VirtualBus::Port::bus_off() {
   if (!active()) {
     return;
   }
-  bus_.catch_up();
+  bus_.start_due_frames();
   transmit_.clear();
   bus_off_ = true;
   report(error_frame(error_bus_off));
@@ -360,7 +360,7 @@ std::size_t VirtualBus::Port::occupied() const {
   return transmit_.size() + (sending ? 1 : 0);
 }
 
-bool VirtualBus::Port::hears(const Port& sender) const {
+bool VirtualBus::Port::receives_from(const Port& sender) const {
   return active() && (baud_ == 0 || sender.baud_ == 0 || baud_ == sender.baud_);
 }
 
@@ -381,8 +381,8 @@ void VirtualBus::Port::receive(const CO_IF_FRM& frame) {
   receive_.push_back(frame);
 }
 
-void VirtualBus::Port::empty() {
-  bus_.catch_up();
+void VirtualBus::Port::clear_queues() {
+  bus_.start_due_frames();
   transmit_.clear();
   receive_.clear();
   overrun_ = false;

@@ -153,7 +153,7 @@ class VirtualBus {
     std::uint32_t struck = 0;  // frames that the fault has affected
   };
   // A frame that a rule for Fault::delay or Fault::reorder has postponed.
-  struct Late {
+  struct DelayedFrame {
     CO_IF_FRM frame;
     const Port* sender;
     Time due;
@@ -166,29 +166,29 @@ class VirtualBus {
   };
   enum class Phase { send, bus };  // rules that count calls of send(), or frames on the bus
 
-  const Rule* strike(const Traffic& traffic, Phase phase);
-  Port* winner() const;
-  CO_IF_FRM take_from(Port& port);
-  void run();
-  void run_at_once();
-  void run_paced();
+  const Rule* apply_rules(const Traffic& traffic, Phase phase);
+  Port* arbitration_winner() const;
+  CO_IF_FRM remove_first(Port& port);
+  void transmit_due();
+  void transmit_unpaced();
+  void transmit_paced();
   bool start_frame();
   Time start_of_frame() const;
   Time next_arrival() const;
-  void catch_up();
+  void start_due_frames();
   void transmit(const CO_IF_FRM& frame, const Port* sender);
-  void postpone(const CO_IF_FRM& frame, const Port* sender, const Rule& rule);
+  void delay_frame(const CO_IF_FRM& frame, const Port* sender, const Rule& rule);
   void deliver(const CO_IF_FRM& frame, const Port* sender);
-  void trace(const CO_IF_FRM& frame, const Port* sender, bool dropped) const;
+  void trace_frame(const CO_IF_FRM& frame, const Port* sender, bool dropped) const;
   void deliver_due();
   void deliver_reordered(const Port* sender);
-  void deliver_first(const std::function<bool(const Late&)>& ready);
-  const Port* visible(const Port& port) const;
+  void deliver_if(const std::function<bool(const DelayedFrame&)>& ready);
+  const Port* sender_for_traffic(const Port& port) const;
 
   std::deque<CountedRule> rules_;
   std::vector<std::unique_ptr<Port>> ports_;
-  std::unique_ptr<Port> outside_;  // sender of the frames of inject()
-  std::vector<Late> late_;         // ordered by due time, then by time of sending
+  std::unique_ptr<Port> injector_;     // sender of the frames of inject()
+  std::vector<DelayedFrame> delayed_;  // ordered by due time, then by time of sending
   std::function<void(const Traffic&)> trace_;
   std::function<Time()> source_;
   std::optional<PacedWire> wire_;  // set on a paced bus
@@ -247,10 +247,10 @@ class VirtualBus::Port {
   friend class VirtualBus;
   bool active() const { return enabled_ && !bus_off_; }
   std::size_t occupied() const;
-  bool hears(const Port& sender) const;
+  bool receives_from(const Port& sender) const;
   bool accepts(const CO_IF_FRM& frame) const;
   void receive(const CO_IF_FRM& frame);
-  void empty();
+  void clear_queues();
 
   VirtualBus& bus_;
   Options options_;

@@ -3,20 +3,21 @@
 
 #include <cstdint>
 
+#include "../atomic.hpp"
 #include "acceptance.hpp"
 #include "registers.hpp"
 
 namespace co::zynqmp {
 namespace {
 
-constexpr std::int16_t taken = sizeof(CO_IF_FRM);  // result of Read and Send: a frame was read or accepted
+constexpr std::int16_t one_frame = sizeof(CO_IF_FRM);  // result of Read and Send: a frame was read or accepted
 constexpr unsigned fifo_frames = 64;
 constexpr std::uint8_t bytes_at_most = 8;
 constexpr std::uint32_t standard_ids = 0x7FF;
 
 // Interrupts that are always enabled. all_sent is added only while a frame is being sent: it stays set while the FIFO
 // is empty.
-constexpr std::uint32_t always_wanted = received | receive_overflow | bus_off | woken;
+constexpr std::uint32_t always_enabled = received | receive_overflow | bus_off | woken;
 
 // Error classes and details for the node, in the coding of SocketCAN.
 constexpr std::uint32_t class_controller = 0x004;
@@ -27,27 +28,20 @@ constexpr std::uint8_t detail_passive = 0x30;
 constexpr std::uint8_t detail_active = 0x40;
 
 // Values of CO_CAN_ZYNQMP.Told: the state last reported to the node.
-constexpr std::uint8_t told_active = 0;
-constexpr std::uint8_t told_passive = 1;
-constexpr std::uint8_t told_bus_off = 2;
+constexpr std::uint8_t state_active = 0;
+constexpr std::uint8_t state_passive = 1;
+constexpr std::uint8_t state_bus_off = 2;
 
 CO_CAN_ZYNQMP& controller(void* ctx) { return *static_cast<CO_CAN_ZYNQMP*>(ctx); }
 
-// The interrupt and the loop share these members; each has one writer, so atomic loads and stores suffice.
-template <typename Number>
-Number load(const Number& number) {
-  return __atomic_load_n(&number, __ATOMIC_ACQUIRE);
-}
-template <typename Number>
-void store(Number& number, Number value) {
-  __atomic_store_n(&number, value, __ATOMIC_RELEASE);
-}
+using atomic::load;
+using atomic::store;
 
-bool has(const CO_CAN_ZYNQMP& can, std::uint32_t interrupt) {
+bool is_set(const CO_CAN_ZYNQMP& can, std::uint32_t interrupt) {
   return (read(can.Registers, Register::interrupt_status) & interrupt) != 0;
 }
 
-void clear(const CO_CAN_ZYNQMP& can, std::uint32_t interrupts) {
+void clear_interrupts(const CO_CAN_ZYNQMP& can, std::uint32_t interrupts) {
   write(can.Registers, Register::interrupt_clear, interrupts);
 }
 
@@ -78,7 +72,7 @@ CO_IF_FRM read_frame(const CO_CAN_ZYNQMP& can) {
   return frame;
 }
 
-// On and off the bus --------------------------------------------------------------------------------------------------
+// Joining and leaving the bus -----------------------------------------------------------------------------------------
 
 const CO_CAN_ZYNQMP_RATE* find_rate(const CO_CAN_ZYNQMP& can, std::uint32_t baud) {
   for (unsigned n = 0; n < can.RateNum; ++n) {
@@ -90,46 +84,46 @@ const CO_CAN_ZYNQMP_RATE* find_rate(const CO_CAN_ZYNQMP& can, std::uint32_t baud
 }
 
 // Disables the interrupts. The read-back ensures that the write has reached the controller, so none follows.
-void silence(CO_CAN_ZYNQMP& can) {
+void disable_interrupts(CO_CAN_ZYNQMP& can) {
   write(can.Registers, Register::interrupt_enable, 0);
   static_cast<void>(read(can.Registers, Register::interrupt_enable));
 }
 
 // Waits until a status bit has a value; for changes that take a few clock periods of the controller.
-void await(const CO_CAN_ZYNQMP& can, std::uint32_t bit, std::uint32_t value) {
-  for (unsigned patience = 1000; patience != 0 && (read(can.Registers, Register::status) & bit) != value;) {
-    --patience;
+void await_status(const CO_CAN_ZYNQMP& can, std::uint32_t bit, std::uint32_t value) {
+  for (unsigned reads = 1000; reads != 0 && (read(can.Registers, Register::status) & bit) != value;) {
+    --reads;
   }
 }
 
 // Resets the controller, which then is in configuration mode with its interrupts disabled.
-void go_off_the_bus(CO_CAN_ZYNQMP& can) {
-  silence(can);
+void leave_bus(CO_CAN_ZYNQMP& can) {
+  disable_interrupts(can);
   write(can.Registers, Register::software_reset, soft_reset);
-  await(can, is_configuring, is_configuring);
+  await_status(can, is_configuring, is_configuring);
   can.Rate = nullptr;
 }
 
 // Discards received frames and counters. The interrupts must be disabled.
-void forget_received(CO_CAN_ZYNQMP& can) {
-  for (unsigned n = 0; n < fifo_frames && has(can, received); ++n) {
+void discard_received(CO_CAN_ZYNQMP& can) {
+  for (unsigned n = 0; n < fifo_frames && is_set(can, received); ++n) {
     static_cast<void>(read_frame(can));
-    clear(can, received);
+    clear_interrupts(can, received);
   }
-  clear(can, receive_overflow);
+  clear_interrupts(can, receive_overflow);
   static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
   can.Overflows = 0;
-  can.ToldLost = 0;
+  can.ReportedLost = 0;
 }
 
 // Enables the interrupts, with all_sent only while a frame is being sent.
-void want_interrupts(const CO_CAN_ZYNQMP& can) {
-  write(can.Registers, Register::interrupt_enable, can.IsSending != 0 ? always_wanted | all_sent : always_wanted);
+void enable_interrupts(const CO_CAN_ZYNQMP& can) {
+  write(can.Registers, Register::interrupt_enable, can.IsSending != 0 ? always_enabled | all_sent : always_enabled);
 }
 
 void set_filters(const CO_CAN_ZYNQMP& can) {
   write(can.Registers, Register::filters_used, 0);  // all frames pass meanwhile
-  await(can, filters_busy, 0);
+  await_status(can, filters_busy, 0);
   for (unsigned n = 0; n < can.FilterNum; ++n) {
     write(can.Registers, Register::filters + 2 * n, can.FilterMask[n]);
     write(can.Registers, Register::filters + (2 * n + 1), can.FilterId[n]);
@@ -137,9 +131,9 @@ void set_filters(const CO_CAN_ZYNQMP& can) {
   write(can.Registers, Register::filters_used, (1U << can.FilterNum) - 1);
 }
 
-void go_on_the_bus(CO_CAN_ZYNQMP& can, const CO_CAN_ZYNQMP_RATE& rate) {
-  go_off_the_bus(can);
-  forget_received(can);
+void join_bus(CO_CAN_ZYNQMP& can, const CO_CAN_ZYNQMP_RATE& rate) {
+  leave_bus(can);
+  discard_received(can);
   can.Rate = &rate;
   can.IsBusOff = 0;
   can.IsSending = 0;
@@ -147,7 +141,7 @@ void go_on_the_bus(CO_CAN_ZYNQMP& can, const CO_CAN_ZYNQMP_RATE& rate) {
   write(can.Registers, Register::bit_timing, rate.Timing);
   write(can.Registers, Register::mode_select, can.Loopback ? loopback_mode : 0);
   set_filters(can);
-  want_interrupts(can);
+  enable_interrupts(can);
   write(can.Registers, Register::software_reset, can_enable);
 }
 
@@ -178,7 +172,7 @@ void write_frame(const CO_CAN_ZYNQMP& can, Register buffer, std::uint32_t word, 
 
 // Returns true while the FIFO contains a frame that has not been sent.
 bool is_sending(CO_CAN_ZYNQMP& can) {
-  if (can.IsSending != 0 && has(can, all_sent)) {
+  if (can.IsSending != 0 && is_set(can, all_sent)) {
     can.IsSending = 0;
   }
   return can.IsSending != 0;
@@ -192,27 +186,27 @@ bool is_boot_up(const CO_IF_FRM& frame) {
 
 // Clears all_sent after writing the frame, because the flag is set again while the FIFO is empty. A frame that was sent
 // before that is detected by the flag `sent`.
-void send_next(CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame) {
-  clear(can, sent | arbitration_lost);
+void send_by_fifo(CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame) {
+  clear_interrupts(can, sent | arbitration_lost);
   write_frame(can, Register::transmit, word, frame);
-  clear(can, all_sent);
-  if (has(can, sent)) {
+  clear_interrupts(can, all_sent);
+  if (is_set(can, sent)) {
     return;
   }
   can.IsSending = 1;
   can.SendingWord = is_boot_up(frame) ? 0 : word;
-  want_interrupts(can);
+  enable_interrupts(can);
 }
 
 // Returns true if a frame with \a word may be sent first: the frame in the FIFO has lost the arbitration, so it is not
 // on the bus now.
 bool may_overtake(const CO_CAN_ZYNQMP& can, std::uint32_t word) {
-  return word < can.SendingWord && has(can, arbitration_lost);
+  return word < can.SendingWord && is_set(can, arbitration_lost);
 }
 
 // Writes a frame to the high priority buffer, which the controller sends before the frame in the FIFO.
-void send_first(const CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame) {
-  clear(can, arbitration_lost);
+void send_by_priority_buffer(const CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame) {
+  clear_interrupts(can, arbitration_lost);
   write_frame(can, Register::transmit_first, word, frame);
 }
 
@@ -222,11 +216,11 @@ bool try_send(CO_CAN_ZYNQMP& can, const CO_IF_FRM& frame) {
     return false;
   }
   if (!is_sending(can)) {
-    send_next(can, word, frame);
+    send_by_fifo(can, word, frame);
     return true;
   }
   if (may_overtake(can, word)) {
-    send_first(can, word, frame);
+    send_by_priority_buffer(can, word, frame);
     return true;
   }
   return false;
@@ -236,67 +230,67 @@ bool try_send(CO_CAN_ZYNQMP& can, const CO_IF_FRM& frame) {
 
 std::uint8_t state_of(const CO_CAN_ZYNQMP& can) {
   if (load(can.IsBusOff) != 0) {
-    return told_bus_off;
+    return state_bus_off;
   }
   switch (read(can.Registers, Register::status) & error_state) {
-    case error_active: return told_active;
-    case error_passive: return told_passive;
-    default: return can.Told;  // on its way to the bus, or to bus-off
+    case error_active: return state_active;
+    case error_passive: return state_passive;
+    default: return can.ReportedState;  // on its way to the bus, or to bus-off
   }
 }
 
 // Adds a change of the controller's state to an error frame. The end of bus-off is a restart; a return from error
 // passive is reported as error active.
-void tell_state(CO_CAN_ZYNQMP& can, std::uint8_t state, CO_IF_FRM& report) {
-  if (state == told_bus_off) {
+void report_state(CO_CAN_ZYNQMP& can, std::uint8_t state, CO_IF_FRM& report) {
+  if (state == state_bus_off) {
     report.Identifier |= class_bus_off;
-  } else if (can.Told == told_bus_off) {
+  } else if (can.ReportedState == state_bus_off) {
     report.Identifier |= class_restarted;
   }
-  if (state == told_passive || (state == told_active && can.Told == told_passive)) {
+  if (state == state_passive || (state == state_active && can.ReportedState == state_passive)) {
     report.Identifier |= class_controller;
-    report.Data[1] = state == told_passive ? detail_passive : detail_active;
+    report.Data[1] = state == state_passive ? detail_passive : detail_active;
   }
-  can.Told = state;
+  can.ReportedState = state;
 }
 
 // Adds lost frames to an error frame; they are reported as an overflow.
-void tell_lost(CO_CAN_ZYNQMP& can, std::uint32_t lost, CO_IF_FRM& report) {
+void report_lost(CO_CAN_ZYNQMP& can, std::uint32_t lost, CO_IF_FRM& report) {
   report.Identifier |= class_controller;
   report.Data[1] = static_cast<std::uint8_t>(report.Data[1] | detail_overflow);
-  can.ToldLost = lost;
+  can.ReportedLost = lost;
 }
 
 // Fills an error frame with the changes since the last report. Returns false if there are none.
 bool report_events(CO_CAN_ZYNQMP& can, CO_IF_FRM& report) {
   const std::uint32_t lost = COCanZynqmpLost(&can);
   const std::uint8_t state = state_of(can);
-  if (lost == can.ToldLost && state == can.Told) {
+  if (lost == can.ReportedLost && state == can.ReportedState) {
     return false;
   }
   report = {CO_IF_FRM_ERROR, {}, bytes_at_most};
-  if (state != can.Told) {
-    tell_state(can, state, report);
+  if (state != can.ReportedState) {
+    report_state(can, state, report);
   }
-  if (lost != can.ToldLost) {
-    tell_lost(can, lost, report);
+  if (lost != can.ReportedLost) {
+    report_lost(can, lost, report);
   }
   return true;
 }
 
 // The driver ----------------------------------------------------------------------------------------------------------
 
-void init(void* ctx) { go_off_the_bus(controller(ctx)); }
+void init(void* ctx) { leave_bus(controller(ctx)); }
 
 void enable(void* ctx, std::uint32_t baud) {
   CO_CAN_ZYNQMP& can = controller(ctx);
   const CO_CAN_ZYNQMP_RATE* const rate = find_rate(can, baud);
-  can.Told = told_active;
+  can.ReportedState = state_active;
   if (rate == nullptr) {
-    go_off_the_bus(can);
+    leave_bus(can);
     return;
   }
-  go_on_the_bus(can, *rate);
+  join_bus(can, *rate);
 }
 
 std::int16_t read_driver(void* ctx, CO_IF_FRM* frm) {
@@ -304,7 +298,7 @@ std::int16_t read_driver(void* ctx, CO_IF_FRM* frm) {
   if (can.Rate == nullptr) {
     return 0;
   }
-  return report_events(can, *frm) || CORingGet(&can.Received, frm) ? taken : std::int16_t{0};
+  return report_events(can, *frm) || CORingGet(&can.Received, frm) ? one_frame : std::int16_t{0};
 }
 
 std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
@@ -312,7 +306,7 @@ std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
   if (can.Rate == nullptr || load(can.IsBusOff) != 0) {
     return -1;
   }
-  return try_send(can, *frm) ? taken : std::int16_t{0};
+  return try_send(can, *frm) ? one_frame : std::int16_t{0};
 }
 
 // Keeps the frame that is being sent: it may be the answer to the request that caused the reset.
@@ -322,15 +316,15 @@ void reset(void* ctx) {
     return;
   }
   if (can.IsBusOff != 0) {
-    go_on_the_bus(can, *can.Rate);
+    join_bus(can, *can.Rate);
     return;
   }
-  silence(can);
-  forget_received(can);
-  want_interrupts(can);
+  disable_interrupts(can);
+  discard_received(can);
+  enable_interrupts(can);
 }
 
-void close(void* ctx) { go_off_the_bus(controller(ctx)); }
+void close(void* ctx) { leave_bus(controller(ctx)); }
 
 void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
   CO_CAN_ZYNQMP& can = controller(ctx);
@@ -359,9 +353,9 @@ void COCanZynqmpInterrupt(CO_CAN_ZYNQMP* can) {
   if (can->Rate == nullptr) {
     return;
   }
-  for (unsigned n = 0; n < fifo_frames && has(*can, received); ++n) {
+  for (unsigned n = 0; n < fifo_frames && is_set(*can, received); ++n) {
     const CO_IF_FRM frame = read_frame(*can);
-    clear(*can, received);
+    clear_interrupts(*can, received);
     static_cast<void>(CORingPut(&can->Received, &frame));
   }
   const std::uint32_t status = read(can->Registers, Register::interrupt_status);
@@ -372,9 +366,9 @@ void COCanZynqmpInterrupt(CO_CAN_ZYNQMP* can) {
     write(can->Registers, Register::software_reset, 0);  // no automatic recovery
     store(can->IsBusOff, std::uint8_t{1});
   }
-  clear(*can, status & (receive_overflow | bus_off | woken));
+  clear_interrupts(*can, status & (receive_overflow | bus_off | woken));
   if ((status & all_sent) != 0) {
-    write(can->Registers, Register::interrupt_enable, always_wanted);
+    write(can->Registers, Register::interrupt_enable, always_enabled);
   }
 }
 

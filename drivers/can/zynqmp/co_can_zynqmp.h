@@ -93,12 +93,12 @@ typedef struct CO_CAN_ZYNQMP_T {
   const CO_CAN_ZYNQMP_RATE* Rate;  // null: off the bus
   uint32_t Overflows;              // overflows of the receive FIFO; written by the interrupt
   uint8_t IsBusOff;                // written by the interrupt
-  uint8_t Told;                    // state last reported to the node: error active, error passive, or bus-off
+  uint8_t ReportedState;           // state last reported to the node: error active, error passive, or bus-off
   uint8_t IsSending;               // a frame is in the transmit FIFO
   uint8_t FilterNum;               // 0: all frames are received
   uint32_t SendingWord;            // identifier of that frame, in the coding of the controller; 0: no frame may
                                    // overtake it
-  uint32_t ToldLost;               // lost frames already reported to the node
+  uint32_t ReportedLost;           // lost frames already reported to the node
   uint32_t FilterMask[4];
   uint32_t FilterId[4];
   /// \endcond

@@ -16,7 +16,7 @@
 
 namespace co {
 
-/// Limits of the controllers' bit timing.
+/// Limits of the bit timing of the controllers: prescaler, segment 1, segment 2, synchronisation jump width.
 inline constexpr BitTimingLimits zynqmp_limits = {256, 16, 8, 4};
 
 /// Returns an element of CO_CAN_ZYNQMP.Rates. \a baud: bit/s; \a timing: a valid timing for it.

@@ -27,12 +27,12 @@ void sync_directory(const std::string& path) {
   }
 }
 
-off_t place(std::uint32_t start, std::uint32_t at) { return static_cast<off_t>(start) + static_cast<off_t>(at); }
+off_t offset_of(std::uint32_t start, std::uint32_t at) { return static_cast<off_t>(start) + static_cast<off_t>(at); }
 
 // Repeats pread or pwrite until all bytes are processed, the end of the file is reached, or an error occurs. Returns
 // the number of bytes processed.
 template <typename Access>
-std::uint32_t all(std::uint32_t size, Access access) {
+std::uint32_t transfer_all(std::uint32_t size, Access access) {
   std::uint32_t done = 0;
   while (done < size) {
     const ssize_t bytes = access(done);
@@ -57,10 +57,10 @@ bool FileNvm::open(const std::string& path, std::uint32_t capacity) {
   error_.clear();
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, readable_by_all);
   if (fd_ < 0) {
-    return fail("cannot be opened");
+    return fail_with("cannot be opened");
   }
   capacity_ = capacity;
-  if (!fill_up()) {
+  if (!extend_to_capacity()) {
     close();
     return false;
   }
@@ -76,38 +76,38 @@ void FileNvm::close() {
 }
 
 std::uint32_t FileNvm::read(std::uint32_t start, std::uint8_t* buffer, std::uint32_t size) {
-  const std::uint32_t wanted = inside(start, size);
+  const std::uint32_t wanted = bytes_inside(start, size);
   errno = 0;
-  const std::uint32_t done =
-      all(wanted, [&](std::uint32_t at) { return ::pread(fd_, buffer + at, wanted - at, place(start, at)); });
+  const std::uint32_t done = transfer_all(
+      wanted, [&](std::uint32_t at) { return ::pread(fd_, buffer + at, wanted - at, offset_of(start, at)); });
   if (done < wanted) {
-    fail("cannot be read");
+    fail_with("cannot be read");
   }
   return done;
 }
 
 std::uint32_t FileNvm::write(std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {
-  const std::uint32_t wanted = inside(start, size);
+  const std::uint32_t wanted = bytes_inside(start, size);
   if (wanted == 0) {
     return 0;
   }
   errno = 0;
-  const std::uint32_t done = put(start, buffer, wanted);
+  const std::uint32_t done = write_all(start, buffer, wanted);
   if (done < wanted) {
-    fail("cannot be written");
+    fail_with("cannot be written");
   }
   if (::fdatasync(fd_) != 0) {
-    fail("cannot be synchronised");
+    fail_with("cannot be synchronised");
     return 0;
   }
   return done;
 }
 
 // Extends the file with FFh to the capacity, and synchronises it.
-bool FileNvm::fill_up() {
+bool FileNvm::extend_to_capacity() {
   struct stat status {};
   if (::fstat(fd_, &status) != 0) {
-    return fail("cannot be examined");
+    return fail_with("cannot be examined");
   }
   if (!S_ISREG(status.st_mode)) {
     error_ = path_ + " is not a regular file";
@@ -117,29 +117,30 @@ bool FileNvm::fill_up() {
   blank.fill(erased);
   for (std::uint64_t at = static_cast<std::uint64_t>(status.st_size); at < capacity_;) {
     const auto size = static_cast<std::uint32_t>(std::min<std::uint64_t>(blank.size(), capacity_ - at));
-    if (put(static_cast<std::uint32_t>(at), blank.data(), size) < size) {
-      return fail("cannot be filled");
+    if (write_all(static_cast<std::uint32_t>(at), blank.data(), size) < size) {
+      return fail_with("cannot be filled");
     }
     at += size;
   }
   if (::fsync(fd_) != 0) {
-    return fail("cannot be synchronised");
+    return fail_with("cannot be synchronised");
   }
   sync_directory(path_);
   return true;
 }
 
 // Returns the number of bytes of an access that are within the capacity.
-std::uint32_t FileNvm::inside(std::uint32_t start, std::uint32_t size) const {
+std::uint32_t FileNvm::bytes_inside(std::uint32_t start, std::uint32_t size) const {
   return (start >= capacity_) ? 0 : std::min(size, capacity_ - start);
 }
 
-std::uint32_t FileNvm::put(std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {
-  return all(size, [&](std::uint32_t at) { return ::pwrite(fd_, buffer + at, size - at, place(start, at)); });
+std::uint32_t FileNvm::write_all(std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {
+  return transfer_all(size,
+                      [&](std::uint32_t at) { return ::pwrite(fd_, buffer + at, size - at, offset_of(start, at)); });
 }
 
 // Stores the text of an error. errno: its reason; 0: the end of the file was reached. Returns false.
-bool FileNvm::fail(const char* action) {
+bool FileNvm::fail_with(const char* action) {
   const std::string reason = (errno == 0) ? "it ends early" : std::generic_category().message(errno);
   error_ = path_ + " " + action + ": " + reason;
   return false;

@@ -53,10 +53,10 @@ class FileNvm {
   const std::string& error() const { return error_; }
 
  private:
-  bool fill_up();
-  std::uint32_t inside(std::uint32_t start, std::uint32_t size) const;
-  std::uint32_t put(std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size);
-  bool fail(const char* action);
+  bool extend_to_capacity();
+  std::uint32_t bytes_inside(std::uint32_t start, std::uint32_t size) const;
+  std::uint32_t write_all(std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size);
+  bool fail_with(const char* action);
 
   std::string path_;
   std::string error_;

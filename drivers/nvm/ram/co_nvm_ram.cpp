@@ -11,7 +11,7 @@ constexpr int erased = 0xFF;
 CO_NVM_RAM& memory(void* ctx) { return *static_cast<CO_NVM_RAM*>(ctx); }
 
 // Returns the number of bytes of an access that are within the memory.
-std::uint32_t inside(const CO_NVM_RAM& ram, std::uint32_t start, std::uint32_t size) {
+std::uint32_t bytes_inside(const CO_NVM_RAM& ram, std::uint32_t start, std::uint32_t size) {
   if (start >= ram.Size) {
     return 0;
   }
@@ -23,7 +23,7 @@ void init(void* /*ctx*/) {}
 
 std::uint32_t read(void* ctx, std::uint32_t start, std::uint8_t* buffer, std::uint32_t size) {
   const CO_NVM_RAM& ram = memory(ctx);
-  const std::uint32_t bytes = inside(ram, start, size);
+  const std::uint32_t bytes = bytes_inside(ram, start, size);
   if (bytes != 0) {
     std::memcpy(buffer, ram.Mem + start, bytes);
   }
@@ -32,7 +32,7 @@ std::uint32_t read(void* ctx, std::uint32_t start, std::uint8_t* buffer, std::ui
 
 std::uint32_t write(void* ctx, std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {
   const CO_NVM_RAM& ram = memory(ctx);
-  const std::uint32_t bytes = inside(ram, start, size);
+  const std::uint32_t bytes = bytes_inside(ram, start, size);
   if (bytes != 0) {
     std::memcpy(ram.Mem + start, buffer, bytes);
   }

@@ -33,7 +33,7 @@ void VirtualClock::advance(std::uint64_t ticks) {
   const std::uint64_t target = elapsed_ + ticks;
   for (VirtualTimer* timer = earliest(); timer != nullptr && timer->deadline_ <= target; timer = earliest()) {
     elapsed_ = std::max(elapsed_, timer->deadline_);
-    timer->ring();
+    timer->expire();
   }
   elapsed_ = std::max(elapsed_, target);  // an alarm function may have advanced the clock further
 }
@@ -77,7 +77,7 @@ void VirtualTimer::set_alarm(std::uint32_t ticks) {
   deadline_ = clock_.elapsed() + ticks;
 }
 
-void VirtualTimer::ring() {
+void VirtualTimer::expire() {
   armed_ = false;
   ++alarms_;
   // Called last: the function may destroy this timer.

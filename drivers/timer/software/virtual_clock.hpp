@@ -93,7 +93,7 @@ class VirtualTimer {
 
  private:
   friend class VirtualClock;
-  void ring();
+  void expire();
 
   VirtualClock& clock_;
   std::function<void()> on_alarm_;

@@ -5,7 +5,7 @@
 
 namespace {
 
-constexpr uint32_t most = 1U << 31;  // longest step to the next interrupt, cycles
+constexpr uint32_t longest_step = 1U << 31;  // longest step to the next interrupt, cycles
 
 CO_MTIME& mtime(void* ctx) { return *static_cast<CO_MTIME*>(ctx); }
 
@@ -13,7 +13,7 @@ CO_MTIME& mtime(void* ctx) { return *static_cast<CO_MTIME*>(ctx); }
 uint32_t cycle(const CO_MTIME& t) { return t.Time[0]; }
 
 // Counts a change of the clock. now() repeats its reading if the number has changed meanwhile.
-void change(CO_MTIME& t) { __atomic_store_n(&t.Turn, t.Turn + 1, __ATOMIC_RELEASE); }
+void count_change(CO_MTIME& t) { __atomic_store_n(&t.Changes, t.Changes + 1, __ATOMIC_RELEASE); }
 
 // Returns mtime. Repeats the reading if the low word has wrapped between the readings of the high word.
 uint64_t time(const CO_MTIME& t) {
@@ -38,13 +38,13 @@ void set_compare(CO_MTIME& t, uint64_t at) {
 void alarm(void* ctx, uint32_t ticks) {
   CO_MTIME& t = mtime(ctx);
   const uint64_t now = time(t);
-  set_compare(t, now + co::cycles::until(t.Clock, static_cast<uint32_t>(now), ticks, most));
-  change(t);
+  set_compare(t, now + co::cycle_clock::cycles_until(t.Clock, static_cast<uint32_t>(now), ticks, longest_step));
+  count_change(t);
 }
 
 void init(void* ctx, uint32_t freq) {
   CO_MTIME& t = mtime(ctx);
-  co::cycles::start(t.Clock, t.Hz, freq, cycle(t));
+  co::cycle_clock::start_clock(t.Clock, t.Hz, freq, cycle(t));
   alarm(ctx, 0);
 }
 
@@ -52,10 +52,10 @@ void init(void* ctx, uint32_t freq) {
 uint32_t now(void* ctx) {
   const CO_MTIME& t = mtime(ctx);
   for (;;) {
-    const uint32_t turn = __atomic_load_n(&t.Turn, __ATOMIC_ACQUIRE);
-    const uint32_t ticks = co::cycles::ticks(t.Clock, cycle(t));
+    const uint32_t changes = __atomic_load_n(&t.Changes, __ATOMIC_ACQUIRE);
+    const uint32_t ticks = co::cycle_clock::ticks_at(t.Clock, cycle(t));
     __atomic_signal_fence(__ATOMIC_ACQ_REL);
-    if (__atomic_load_n(&t.Turn, __ATOMIC_ACQUIRE) == turn) {
+    if (__atomic_load_n(&t.Changes, __ATOMIC_ACQUIRE) == changes) {
       return ticks;
     }
   }

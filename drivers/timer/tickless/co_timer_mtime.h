@@ -29,7 +29,7 @@ typedef struct CO_MTIME_T {
   volatile uint32_t* Compare;  ///< mtimecmp of the hart: two words, the low one first
   uint32_t Hz;                 ///< frequency of mtime
   CO_CYCLE_CLOCK Clock;        ///< ticks, updated whenever an alarm is set
-  uint32_t Turn;               ///< number of changes of Clock, by which a reader detects one during its reading
+  uint32_t Changes;            ///< number of changes of Clock, by which a reader detects one during its reading
 } CO_MTIME;
 
 /// The driver; its context is a CO_MTIME.

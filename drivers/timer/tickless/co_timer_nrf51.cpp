@@ -12,9 +12,9 @@ constexpr uint32_t highest_prescaler = 9;
 constexpr uint32_t bits_32 = 3;
 
 // Compare registers for the current time and for the alarm.
-constexpr unsigned present = 0;
-constexpr unsigned due = 1;
-constexpr uint32_t due_interrupt = 1U << (16 + due);
+constexpr unsigned time_register = 0;
+constexpr unsigned alarm_register = 1;
+constexpr uint32_t alarm_interrupt = 1U << (16 + alarm_register);
 
 // Ticks that a compare value must be ahead of the clock when it is written; an upper bound of the time of writing.
 constexpr uint32_t lead = 4;
@@ -23,9 +23,9 @@ CO_NRF51_TIMER_REGS& registers(void* ctx) { return *static_cast<CO_NRF51_TIMER*>
 
 // Captures and returns the current time. If the interrupt calls this function between the two lines, the result is the
 // time that it has captured, which is newer.
-uint32_t look(CO_NRF51_TIMER_REGS& regs) {
-  regs.Capture[present] = 1;
-  return regs.Compare[present];
+uint32_t capture(CO_NRF51_TIMER_REGS& regs) {
+  regs.Capture[time_register] = 1;
+  return regs.Compare[time_register];
 }
 
 void init(void* ctx, uint32_t freq) {
@@ -43,25 +43,25 @@ void init(void* ctx, uint32_t freq) {
   regs.Start = 1;
 }
 
-uint32_t now(void* ctx) { return look(registers(ctx)); }
+uint32_t now(void* ctx) { return capture(registers(ctx)); }
 
 // Sets the compare value. If it has already passed when it is written, it would match one wrap of the clock later:
 // repeats the write with a later value until it is in the future.
 void alarm(void* ctx, uint32_t ticks) {
   CO_NRF51_TIMER_REGS& regs = registers(ctx);
-  regs.InterruptsOff = due_interrupt;
-  regs.Compared[due] = 0;
+  regs.InterruptsOff = alarm_interrupt;
+  regs.Compared[alarm_register] = 0;
   if (ticks == 0) {
     return;
   }
-  const uint32_t begin = look(regs);
+  const uint32_t begin = capture(regs);
   uint32_t wait = ticks < lead ? lead : ticks;
-  regs.Compare[due] = begin + wait;
-  for (uint32_t passed = look(regs) - begin; passed >= wait; passed = look(regs) - begin) {
+  regs.Compare[alarm_register] = begin + wait;
+  for (uint32_t passed = capture(regs) - begin; passed >= wait; passed = capture(regs) - begin) {
     wait = passed + lead;
-    regs.Compare[due] = begin + wait;
+    regs.Compare[alarm_register] = begin + wait;
   }
-  regs.InterruptsOn = due_interrupt;
+  regs.InterruptsOn = alarm_interrupt;
 }
 
 }  // namespace

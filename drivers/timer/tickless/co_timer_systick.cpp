@@ -16,9 +16,9 @@ constexpr uint32_t cpu_clock = 1U << 2;
 constexpr uint32_t pending = 1U << 26;      // bit of ICSR
 constexpr uint32_t end_pending = 1U << 25;  // bit of ICSR
 
-constexpr uint32_t most = 1U << 24;     // longest slice, cycles
-constexpr uint32_t least = 64;          // shortest slice, cycles: Reload is written again before it ends
-constexpr uint32_t longest_start = 64;  // cycles; a debugger or a delayed emulator would measure more
+constexpr uint32_t longest_slice = 1U << 24;  // cycles
+constexpr uint32_t shortest_slice = 64;       // cycles: Reload is written again before it ends
+constexpr uint32_t longest_start_time = 64;   // cycles; a debugger or a delayed emulator would measure more
 
 CO_SYSTICK& systick(void* ctx) { return *static_cast<CO_SYSTICK*>(ctx); }
 
@@ -33,8 +33,8 @@ struct Reading {
 // Returns the cycles since the beginning of the slice. If the slice has ended between the two readings of the flag, a
 // value in the upper half belongs to the next slice, which has 2^24 cycles. The value 0 is the end of the slice.
 uint32_t passed(const CO_SYSTICK& t, const Reading& reading) {
-  const bool is_of_next = reading.wrapped_before || (reading.wrapped_after && reading.value > most / 2);
-  return reading.value != 0 && is_of_next ? t.Slice + most - reading.value : t.Slice - reading.value;
+  const bool is_of_next = reading.wrapped_before || (reading.wrapped_after && reading.value > longest_slice / 2);
+  return reading.value != 0 && is_of_next ? t.Slice + longest_slice - reading.value : t.Slice - reading.value;
 }
 
 // Returns the current cycle of the clock.
@@ -70,14 +70,14 @@ void await_begin(const CO_SYSTICK& t) {
 }
 
 // Counts a change of the clock. now() repeats its reading if the number has changed meanwhile.
-void change(CO_SYSTICK& t) { __atomic_store_n(&t.Turn, t.Turn + 1, __ATOMIC_RELEASE); }
+void count_change(CO_SYSTICK& t) { __atomic_store_n(&t.Changes, t.Changes + 1, __ATOMIC_RELEASE); }
 
 // Begins a slice of 2^24 cycles: adds the elapsed part of the previous slice to the clock and clears its interrupt.
 void begin_longest(CO_SYSTICK& t) {
   const bool before = has_wrapped(t);
-  const uint32_t value = exchange(*t.Regs, most - 1);
+  const uint32_t value = exchange(*t.Regs, longest_slice - 1);
   t.Begin += passed(t, {before, value, has_wrapped(t)}) + t.Start;
-  t.Slice = most;
+  t.Slice = longest_slice;
   *t.Icsr = end_pending;
   await_begin(t);
 }
@@ -87,7 +87,7 @@ void begin_longest(CO_SYSTICK& t) {
 void end_slice(CO_SYSTICK& t) {
   t.Begin += t.Slice;
   t.Slice = 0;
-  exchange(*t.Regs, most - 1);
+  exchange(*t.Regs, longest_slice - 1);
   await_begin(t);
 }
 
@@ -95,11 +95,12 @@ void end_slice(CO_SYSTICK& t) {
 // with that of the new slice.
 void begin_slice(CO_SYSTICK& t, uint32_t end) {
   const uint32_t left = end - (t.Begin + t.Slice - t.Regs->Value + t.Start);
-  const uint32_t slice = left - least <= most - least ? left : least;  // least, too, if the end is near or has passed
+  const bool is_far = left - shortest_slice <= longest_slice - shortest_slice;  // false, too, if the end has passed
+  const uint32_t slice = is_far ? left : shortest_slice;
   t.Begin += t.Slice - exchange(*t.Regs, slice - 1) + t.Start;
   t.Slice = slice;
   await_begin(t);
-  t.Regs->Reload = most - 1;
+  t.Regs->Reload = longest_slice - 1;
   if (has_wrapped(t)) {
     end_slice(t);
   }
@@ -107,24 +108,24 @@ void begin_slice(CO_SYSTICK& t, uint32_t end) {
 
 void init(void* ctx, uint32_t freq) {
   CO_SYSTICK& t = systick(ctx);
-  co::cycles::start(t.Clock, t.Hz, freq, 0);
-  t.Regs->Reload = most - 1;
+  co::cycle_clock::start_clock(t.Clock, t.Hz, freq, 0);
+  t.Regs->Reload = longest_slice - 1;
   t.Regs->Control = enabled | cpu_clock | interrupts;
   begin_longest(t);
   t.Begin = 0;
-  const uint32_t start = measure(*t.Regs, most - 1);
-  t.Start = start > longest_start ? longest_start : start;
-  change(t);
+  const uint32_t start = measure(*t.Regs, longest_slice - 1);
+  t.Start = start > longest_start_time ? longest_start_time : start;
+  count_change(t);
 }
 
 // Repeats the reading if the interrupt has changed the clock meanwhile.
 uint32_t now(void* ctx) {
   const CO_SYSTICK& t = systick(ctx);
   for (;;) {
-    const uint32_t turn = __atomic_load_n(&t.Turn, __ATOMIC_ACQUIRE);
-    const uint32_t ticks = co::cycles::ticks(t.Clock, cycle(t));
+    const uint32_t changes = __atomic_load_n(&t.Changes, __ATOMIC_ACQUIRE);
+    const uint32_t ticks = co::cycle_clock::ticks_at(t.Clock, cycle(t));
     __atomic_signal_fence(__ATOMIC_ACQ_REL);
-    if (__atomic_load_n(&t.Turn, __ATOMIC_ACQUIRE) == turn) {
+    if (__atomic_load_n(&t.Changes, __ATOMIC_ACQUIRE) == changes) {
       return ticks;
     }
   }
@@ -133,19 +134,19 @@ uint32_t now(void* ctx) {
 void alarm(void* ctx, uint32_t ticks) {
   CO_SYSTICK& t = systick(ctx);
   const uint32_t now = cycle(t);
-  const uint32_t end = now + co::cycles::until(t.Clock, now, ticks, most);
+  const uint32_t end = now + co::cycle_clock::cycles_until(t.Clock, now, ticks, longest_slice);
   begin_longest(t);
   begin_slice(t, end);
-  change(t);
+  count_change(t);
 }
 
 }  // namespace
 
 extern "C" void COSysTickInterrupt(CO_SYSTICK* timer) {
   timer->Begin += timer->Slice;
-  timer->Slice = most;
+  timer->Slice = longest_slice;
   await_begin(*timer);
-  change(*timer);
+  count_change(*timer);
 }
 
 const CO_IF_TIMER_DRV_EX SysTickDriver = {init, now, alarm};

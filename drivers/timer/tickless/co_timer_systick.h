@@ -46,7 +46,7 @@ typedef struct CO_SYSTICK_T {
   uint32_t Begin;           ///< cycle at which the current count-down has begun
   uint32_t Slice;           ///< length of the current count-down, cycles; the next one has 2^24
   uint32_t Start;           ///< cycles that pass while SysTick is restarted
-  uint32_t Turn;            ///< number of changes of the members above, by which a reader detects one
+  uint32_t Changes;         ///< number of changes of the members above, by which a reader detects one
 } CO_SYSTICK;
 
 /// Adds the count-down that has ended to the clock. Call it in the interrupt of SysTick, before COTmrService().

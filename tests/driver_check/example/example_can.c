@@ -5,8 +5,8 @@
 
 static CO_IF_FRM ReceiveMemory[RECEIVE_QUEUE_FRAMES];
 static CO_RING ReceiveQueue;
-static uint16_t ReportedLost;         // lost frames (queue full) already reported
-static volatile uint8_t NotedEvents;  // bit n: CO_CAN_EVENT n, set by the interrupt
+static uint16_t ReportedLost;           // lost frames (queue full) already reported
+static volatile uint8_t PendingEvents;  // bit n: CO_CAN_EVENT n, set by the interrupt
 
 // Goes off the bus and disables the interrupts, so that the queue is not used while it is initialised.
 static void Init(void) {
@@ -14,7 +14,7 @@ static void Init(void) {
   ExampleCan.Transmit.Request = 0;
   (void)CORingInit(&ReceiveQueue, ReceiveMemory, RECEIVE_QUEUE_FRAMES);
   ReportedLost = 0;
-  NotedEvents = 0;
+  PendingEvents = 0;
 }
 
 // Sets 16 time quanta per bit, with the sample point after 14 of them: 87.5 %.
@@ -81,26 +81,26 @@ void ExampleCanInterrupt(void) {
     TakeFrame();
   }
   if ((status & EXAMPLE_CAN_LOST) != 0) {
-    NotedEvents = NotedEvents | (uint8_t)(1u << CO_CAN_OVERRUN);
+    PendingEvents = PendingEvents | (uint8_t)(1u << CO_CAN_OVERRUN);
   }
   if ((status & EXAMPLE_CAN_BUS_OFF) != 0) {
-    NotedEvents = NotedEvents | (uint8_t)(1u << CO_CAN_BUS_OFF);
+    PendingEvents = PendingEvents | (uint8_t)(1u << CO_CAN_BUS_OFF);
   }
   ExampleCan.Clear = status & ~EXAMPLE_CAN_RECEIVED;
 }
 
 // Reads and clears the events with the interrupts of the controller disabled, so that none is lost.
-static uint8_t TakeNotes(void) {
+static uint8_t TakeEvents(void) {
   const uint32_t control = ExampleCan.Control;
   ExampleCan.Control = control & ~EXAMPLE_CAN_INTERRUPTS;
-  const uint8_t events = NotedEvents;
-  NotedEvents = 0;
+  const uint8_t events = PendingEvents;
+  PendingEvents = 0;
   ExampleCan.Control = control;
   return events;
 }
 
 void ExampleCanReport(CO_NODE* node) {
-  const uint8_t events = NotedEvents == 0 ? 0 : TakeNotes();
+  const uint8_t events = PendingEvents == 0 ? 0 : TakeEvents();
   const uint16_t lost = CORingLost(&ReceiveQueue);
   if ((events & (1u << CO_CAN_OVERRUN)) != 0 || lost != ReportedLost) {
     ReportedLost = lost;
@@ -112,5 +112,5 @@ void ExampleCanReport(CO_NODE* node) {
 }
 
 bool ExampleCanHasWork(void) {
-  return CORingCount(&ReceiveQueue) != 0 || NotedEvents != 0 || CORingLost(&ReceiveQueue) != ReportedLost;
+  return CORingCount(&ReceiveQueue) != 0 || PendingEvents != 0 || CORingLost(&ReceiveQueue) != ReportedLost;
 }

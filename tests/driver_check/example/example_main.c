@@ -43,7 +43,7 @@ static void SleepUntilInterrupt(void) {
   CpuEnableInterrupts();
 }
 
-void NodeTurn(void) {
+void NodeRunOnce(void) {
   Happened = false;
   CONodeProcess(&Node);
   COTmrProcess(&Node.Tmr);

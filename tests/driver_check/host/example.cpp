@@ -123,8 +123,8 @@ void connect_example(Board& board, std::function<void()> can_interrupt, std::fun
 
 namespace {
 
-// Like NodeTurn(), but sleeps without checking for events since its start.
-void careless_turn() {
+// Like NodeRunOnce(), but sleeps without checking for events since its start.
+void run_once_carelessly() {
   CONodeProcess(&Node);
   COTmrProcess(&Node.Tmr);
   CpuDisableInterrupts();
@@ -154,7 +154,7 @@ bool answers(Board& board, unsigned delay, bool careful) {
     registers();
   };
   while (board.time < begin + 500) {
-    careful ? NodeTurn() : careless_turn();
+    careful ? NodeRunOnce() : run_once_carelessly();
   }
   board.each_turn = registers;
   return count_answers(board) == 2;
@@ -176,7 +176,7 @@ unsigned answered_by_loop(unsigned num, bool careful) {
     board.peer.enable();
     CO_NODE_SPEC spec = {2, 1000000, objects, 4, nullptr, nullptr, 0, frequency, nullptr, nullptr};
     if (NodeStart(&spec)) {
-      NodeTurn();
+      NodeRunOnce();
       good += answers(board, delay, careful) ? 1U : 0U;
     }
   }

@@ -135,7 +135,7 @@ std::uint32_t true_now(void* ctx) { return ClockDriver.Now(ctx); }
 
 std::vector<Mutant> clock_mutants() {
   return {
-      {"the clock stands still", "timer.clock",
+      {"the clock does not advance", "timer.clock",
        with_clock([](auto& t) { t.Now = [](void*) { return std::uint32_t{7}; }; })},
       {"the high half of the clock comes too late", "timer.clock", with_clock([](auto& t) {
          t.Now = [](void* ctx) {
