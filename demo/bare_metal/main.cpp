@@ -81,7 +81,7 @@ void print_error() {
 // Sleeps if the node is idle. Interrupts are disabled between the check and the sleep; a pending one ends the sleep.
 void sleep_until_due() {
   const std::uint32_t before = board::disable_interrupts();
-  if (CONodeNextDeadline(&node) != 0 && !COSlcanIsDue(&can) && uart_lets_sleep()) {
+  if (CONodeNextDeadline(&node) != 0 && !COSlcanIsDue(&can) && uart_wakes_cpu()) {
     board::wait_for_interrupt();
   }
   board::restore_interrupts(before);

@@ -19,7 +19,7 @@ void uart_send(CO_SLCAN& can);
 void uart_interrupt(CO_SLCAN& can);
 
 /// Returns true if the UART will interrupt, so that the CPU may sleep.
-bool uart_lets_sleep();
+bool uart_wakes_cpu();
 
 /// Timer driver with its context, for CO_NODE_EXT.
 struct BoardTimer {

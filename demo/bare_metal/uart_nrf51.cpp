@@ -80,7 +80,7 @@ void uart_interrupt(CO_SLCAN& can) {
 
 // Returns false while a byte is being sent: QEMU 7.2 omits the interrupt of a byte that the host did not accept at
 // once, until a register is written.
-bool uart_lets_sleep() {
+bool uart_wakes_cpu() {
   if (sending) {
     at(interrupts_on) = all_interrupts;
   }

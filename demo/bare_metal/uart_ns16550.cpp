@@ -69,6 +69,6 @@ void uart_interrupt(CO_SLCAN& can) {
   uart_send(can);
 }
 
-bool uart_lets_sleep() { return true; }
+bool uart_wakes_cpu() { return true; }
 
 }  // namespace demo

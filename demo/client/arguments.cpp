@@ -41,7 +41,7 @@ class Conversion {
     return static_cast<std::uint32_t>(value);
   }
 
-  /// Converts the number of an object: hexadecimal with or without 0x, decimal behind 0d.
+  /// Converts the number of an object: hexadecimal with or without 0x, decimal with 0d.
   std::uint32_t object_number(const char* name, const std::string& text, std::uint32_t highest) {
     const std::string prefix = text.substr(0, 2);
     const bool is_decimal = prefix == "0d" || prefix == "0D";
@@ -159,7 +159,7 @@ std::uint8_t own_id_beside(std::uint8_t node, const std::string& typed, Conversi
   }
   const auto own_id = static_cast<std::uint8_t>(conversion.number("--own-id", typed, 1, 127));
   if (own_id == node) {
-    conversion.fail("--own-id: the node to talk to has this node-ID");
+    conversion.fail("--own-id: the remote node has this node-ID");
   }
   return own_id;
 }

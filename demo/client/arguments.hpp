@@ -18,7 +18,7 @@ struct Arguments {
   bool write = false;
   std::string node;
   std::string own_id;  // empty: 127, or 126 if that is the remote node
-  std::string index;   // hexadecimal with or without 0x, decimal behind 0d; so is sub
+  std::string index;   // hexadecimal with or without 0x, decimal with 0d; so is sub
   std::string sub = "0";
   std::string type;                  // empty: read guesses the type, write copies the file unchanged
   std::optional<std::string> value;  // argument of write

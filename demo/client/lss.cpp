@@ -17,17 +17,17 @@ namespace demo {
 
 namespace {
 
-constexpr Micros last_frames = 100 * millisecond;  // time to transmit them
-constexpr std::uint8_t no_sdo = 1;                 // server of an unused SDO client
+constexpr Micros flush_time = 100 * millisecond;  // time to transmit them
+constexpr std::uint8_t no_sdo = 1;                // server of an unused SDO client
 constexpr std::uint8_t waiting = CO_LSSM_WAITING;
 
-std::string shown(const LssAddress& address) {
+std::string address_text(const LssAddress& address) {
   return text("0x%08X 0x%08X 0x%08X 0x%08X", address[0], address[1], address[2], address[3]);
 }
 
 /// Prints the address in the format of --address.
-void print(std::ostream& out, const LssAddress& address) {
-  out << "vendor-ID, product code, revision, serial number: " << shown(address) << std::endl;
+void print_address(std::ostream& out, const LssAddress& address) {
+  out << "vendor-ID, product code, revision, serial number: " << address_text(address) << std::endl;
 }
 
 /// Returns true if the node in the state configuration has this address; otherwise master.fault() has the reason.
@@ -37,14 +37,15 @@ bool has_identity(LssMaster& master, const LssAddress& address) {
       return false;
     }
     if (master.value() != address[part]) {
-      return master.fail("the node at " + shown(address) + text(" names another number: 0x%08X", master.value()));
+      return master.fail("the node at " + address_text(address) +
+                         text(" reports another number: 0x%08X", master.value()));
     }
   }
   return true;
 }
 
 /// Finds a node without node-ID and switches it to the state configuration.
-bool find(LssMaster& master) {
+bool find_node(LssMaster& master) {
   if (!master.run(COLssmFastscan, nullptr, std::uint8_t{0})) {
     return false;
   }
@@ -57,12 +58,13 @@ bool find(LssMaster& master) {
 }
 
 /// Selects the node alone by its address. Returns true if it answers and has this address.
-bool verify(LssMaster& master, const LssAddress& address) {
+bool verify_address(LssMaster& master, const LssAddress& address) {
   if (!master.run(COLssmSwitchGlobal, waiting)) {
     return false;
   }
   if (!master.run_alone(COLssmSwitchSelective, address.data())) {
-    return master.timed_out() ? master.fail(shown(address) + " was found, but does not answer to its address") : false;
+    return master.timed_out() ? master.fail(address_text(address) + " was found, but does not answer to its address")
+                              : false;
   }
   return has_identity(master, address);
 }
@@ -73,19 +75,19 @@ bool select_all(LssMaster& master, const std::vector<LssAddress>& addresses) {
                      [&](const LssAddress& address) { return master.run(COLssmSwitchSelective, address.data()); });
 }
 
-bool scan(LssMaster& master, std::ostream& out) {
+bool scan_nodes(LssMaster& master, std::ostream& out) {
   std::vector<LssAddress> found;
-  while (find(master)) {
+  while (find_node(master)) {
     const LssAddress address = master.address();
     if (std::find(found.begin(), found.end(), address) != found.end()) {
-      return master.fail("fastscan has found " + shown(address) +
+      return master.fail("fastscan has found " + address_text(address) +
                          " again: this node answers although it is selected or has a node-ID; disconnect it, or name "
                          "the node to configure by --address");
     }
-    if (!verify(master, address)) {
+    if (!verify_address(master, address)) {
       return false;
     }
-    print(out, address);
+    print_address(out, address);
     if (!select_all(master, found)) {
       return false;
     }
@@ -94,18 +96,18 @@ bool scan(LssMaster& master, std::ostream& out) {
   return master.no_node_found();
 }
 
-bool select(LssMaster& master, const LssRequest& request, std::ostream& out) {
+bool select_node(LssMaster& master, const LssRequest& request, std::ostream& out) {
   if (request.address) {
     return master.run_alone(COLssmSwitchSelective, request.address->data()) && has_identity(master, *request.address);
   }
-  if (!find(master)) {
+  if (!find_node(master)) {
     return false;
   }
   const LssAddress address = master.address();
   if (!has_identity(master, address)) {
     return false;
   }
-  print(out, address);
+  print_address(out, address);
   return true;
 }
 
@@ -137,7 +139,7 @@ bool inquire(LssMaster& master, std::ostream& out) {
   return true;
 }
 
-bool act(LssMaster& master, const LssRequest& request, std::ostream& out) {
+bool run_action(LssMaster& master, const LssRequest& request, std::ostream& out) {
   switch (request.action) {
     case LssAction::set_id: return set_node_id(master, static_cast<std::uint8_t>(request.value));
     case LssAction::set_bit_rate: return master.run(COLssmConfigureBitTiming, request.value);
@@ -147,14 +149,15 @@ bool act(LssMaster& master, const LssRequest& request, std::ostream& out) {
   }
 }
 
-bool work(LssMaster& master, const LssRequest& request, std::ostream& out) {
+bool run_request(LssMaster& master, const LssRequest& request, std::ostream& out) {
   if (!master.run(COLssmSwitchGlobal, waiting)) {
     return false;
   }
   if (request.action == LssAction::scan) {
-    return scan(master, out);
+    return scan_nodes(master, out);
   }
-  return select(master, request, out) && act(master, request, out) && (!request.store || master.run(COLssmStore));
+  return select_node(master, request, out) && run_action(master, request, out) &&
+         (!request.store || master.run(COLssmStore));
 }
 
 }  // namespace
@@ -165,14 +168,14 @@ int carry_out(const LssRequest& request, Host& host, std::ostream& out, std::ost
   Loop loop(host, {&node});
   LssMaster master(node, loop, {request.timeout, request.listen});
   CONodeStart(&node.stack());
-  const bool done = work(master, request, out);
+  const bool done = run_request(master, request, out);
   const bool cancelled = !done && master.cancelled() && !host.bus_lost();
   if (!done) {
     const std::string bus_fault = host.bus_fault();
     err << "LSS: " << master.fault() << (bus_fault.empty() ? "" : '\n' + bus_fault) << std::endl;
   }
   master.run(COLssmSwitchGlobal, waiting);
-  loop.flush(last_frames);
+  loop.flush(flush_time);
   return done ? exit_ok : (cancelled ? exit_interrupted : exit_failed);
 }
 

@@ -31,8 +31,8 @@ void LssMaster::begin() {
   fault_.clear();
 }
 
-bool LssMaster::wait_for_end(CO_ERR begun) {
-  error_ = begun;
+bool LssMaster::wait_for_end(CO_ERR start_result) {
+  error_ = start_result;
   if (error_ == CO_ERR_NONE && !loop_.run_until([this] { return ended_; }, for_ever)) {
     COLssmCancel(&lssm_);
   }
@@ -60,7 +60,7 @@ std::string LssMaster::fault() const {
     return fault_;
   }
   if (error_ != CO_ERR_NONE) {
-    return error_ == CO_ERR_IF_CAN_SEND ? "the bus takes no frames"
+    return error_ == CO_ERR_IF_CAN_SEND ? "the CAN driver accepts no frames"
                                         : std::string(COErrName(error_)) + ": " + COErrText(error_);
   }
   switch (result_) {
@@ -69,9 +69,9 @@ std::string LssMaster::fault() const {
                                                 : text("refused with error %u", lssm_.Error);
     case CO_LSSM_TIMEOUT: return "no answer; is there such a node on this bus, with power, and at this bit rate?";
     case CO_LSSM_NOT_FOUND: return "no node without node-ID";
-    case CO_LSSM_NOT_SENT: return "the bus takes no frames";
+    case CO_LSSM_NOT_SENT: return "the CAN driver accepts no frames";
     case CO_LSSM_CANCELLED: return "cancelled";
-    default: return "the master was stopped";
+    default: return "the node of the master was stopped";
   }
 }
 

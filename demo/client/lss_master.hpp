@@ -32,17 +32,17 @@ class LssMaster {
 
   /// Runs a service: one of the functions COLssm…(), to whose arguments it adds the callback. An interruption of the
   /// program cancels the service. Returns false if it fails; fault() returns the reason.
-  template <class... Argument, class... Given>
-  bool run(CO_ERR (*service)(CO_LSSM*, Argument...), Given... given) {
+  template <class... Argument, class... Value>
+  bool run(CO_ERR (*service)(CO_LSSM*, Argument...), Value... values) {
     begin();
-    return wait_for_end(service(&lssm_, given..., note_end));
+    return wait_for_end(service(&lssm_, values..., note_end));
   }
 
   /// Runs a service that exactly one node must answer, like run(). Waits for further answers and returns false if there
   /// are any.
-  template <class... Argument, class... Given>
-  bool run_alone(CO_ERR (*service)(CO_LSSM*, Argument...), Given... given) {
-    return run(service, given...) && is_alone();
+  template <class... Argument, class... Value>
+  bool run_alone(CO_ERR (*service)(CO_LSSM*, Argument...), Value... values) {
+    return run(service, values...) && is_alone();
   }
   /// Waits for further answers, for the listening time. Returns false if several nodes have answered the last request.
   bool is_alone();
@@ -61,7 +61,7 @@ class LssMaster {
  private:
   static void note_end(CO_LSSM* lssm, CO_LSSM_RESULT result);
   void begin();
-  bool wait_for_end(CO_ERR begun);
+  bool wait_for_end(CO_ERR start_result);
 
   Node& node_;
   CO_LSSM& lssm_;

@@ -12,13 +12,13 @@ namespace demo {
 
 namespace {
 
-constexpr Micros last_frames = 100 * millisecond;  // time to transmit them
-constexpr std::uint8_t no_sdo = 1;                 // server of an unused SDO client
+constexpr Micros flush_time = 100 * millisecond;  // time to transmit them
+constexpr std::uint8_t no_sdo = 1;                // server of an unused SDO client
 
 std::string fault_of(CO_ERR error) {
   switch (error) {
     case CO_ERR_NONE: return {};
-    case CO_ERR_IF_CAN_SEND: return "the bus takes no frames";
+    case CO_ERR_IF_CAN_SEND: return "the CAN driver accepts no frames";
     default: return std::string(COErrName(error)) + ": " + COErrText(error);
   }
 }
@@ -32,7 +32,7 @@ int carry_out(const NmtRequest& request, Host& host, std::ostream& err) {
   CONodeStart(&node.stack());
   std::string fault =
       fault_of(CONmtCommand(&node.stack().Nmt, static_cast<CO_NMT_COMMAND>(request.command), request.node));
-  loop.flush(last_frames);
+  loop.flush(flush_time);
   if (fault.empty()) {
     fault = host.bus_fault();
   }

@@ -39,21 +39,21 @@ std::string progress_text(const Amount& amount) {
 
 Progress::Progress(Form form, std::function<void(const std::string&)> show) : form_(form), show_(std::move(show)) {}
 
-bool Progress::is_news(const Amount& amount) const {
+bool Progress::is_due(const Amount& amount) const {
   switch (form_) {
     case Form::none: return false;
-    case Form::bar: return amount.done > 0 && amount.elapsed >= said_at_ + between_bars;
+    case Form::bar: return amount.done > 0 && amount.elapsed >= shown_at_ + between_bars;
     case Form::lines: break;
   }
-  return amount.total == 0 ? amount.elapsed >= said_at_ + between_lines : part(amount, 4) > quarters_;
+  return amount.total == 0 ? amount.elapsed >= shown_at_ + between_lines : part(amount, 4) > quarters_;
 }
 
 void Progress::update(const Amount& amount) {
-  if (!is_news(amount)) {
+  if (!is_due(amount)) {
     return;
   }
   quarters_ = amount.total == 0 ? 0 : part(amount, 4);
-  said_at_ = amount.elapsed;
+  shown_at_ = amount.elapsed;
   show_(progress_text(amount));
 }
 

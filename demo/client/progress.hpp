@@ -35,12 +35,12 @@ class Progress {
   void update(const Amount& amount);
 
  private:
-  bool is_news(const Amount& amount) const;
+  bool is_due(const Amount& amount) const;
 
   Form form_;
   std::function<void(const std::string&)> show_;
   std::uint32_t quarters_ = 0;  // already shown
-  Micros said_at_ = 0;          // elapsed time when the last text was shown
+  Micros shown_at_ = 0;         // elapsed time when the last text was shown
 };
 
 }  // namespace demo

@@ -14,7 +14,7 @@ namespace demo {
 namespace {
 
 // Limit of the time in which frames that are still queued, such as an abort, are transmitted before the program ends.
-constexpr Micros last_frames = 100 * millisecond;
+constexpr Micros flush_time = 100 * millisecond;
 
 /// Prints the texts of a Progress. A bar overwrites the previous one in the same line, which end() ends.
 class ProgressLine {
@@ -54,7 +54,7 @@ Transfer transfer(const Request& request, SdoClient& sdo, const SdoClient::Optio
                        : sdo.upload(request.index, request.sub, options);
 }
 
-std::string what_went_wrong(const Request& request, const Outcome& outcome) {
+std::string fault_text(const Request& request, const Outcome& outcome) {
   std::string words = text("node %u, %04Xh:%02X: ", request.node, request.index, request.sub);
   if (outcome.interrupted) {
     return words + "cancelled";
@@ -83,7 +83,7 @@ Shown show(const Request& request, const Bytes& bytes) {
   return {text.empty() ? guess(bytes) : text, {}};
 }
 
-int put(const Bytes& bytes, std::ostream& out, const std::string& file, std::ostream& err) {
+int write_bytes(const Bytes& bytes, std::ostream& out, const std::string& file, std::ostream& err) {
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!out.flush()) {
     err << "cannot write '" << file << "': " << std::strerror(errno) << '\n';
@@ -92,12 +92,12 @@ int put(const Bytes& bytes, std::ostream& out, const std::string& file, std::ost
   return exit_ok;
 }
 
-int save(const Bytes& bytes, const std::string& file, std::ostream& out, std::ostream& err) {
+int write_file(const Bytes& bytes, const std::string& file, std::ostream& out, std::ostream& err) {
   if (file == "-") {
-    return put(bytes, out, file, err);
+    return write_bytes(bytes, out, file, err);
   }
   std::ofstream stream(file, std::ios::binary);
-  return put(bytes, stream, file, err);
+  return write_bytes(bytes, stream, file, err);
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ Outcome carry_out(const Request& request, Host& host, Progress::Form form, std::
   progress.end();
   // A lost bus interrupts the loop, too; it is reported as bus_fault.
   outcome.interrupted = !outcome.transfer.done() && loop.interrupted() && !host.bus_lost();
-  loop.flush(last_frames);
+  loop.flush(flush_time);
   outcome.bus_fault = host.bus_fault();
   return outcome;
 }
@@ -123,7 +123,7 @@ Outcome carry_out(const Request& request, Host& host, Progress::Form form, std::
 int report(const Request& request, const Outcome& outcome, std::ostream& out, std::ostream& err) {
   const Transfer& transfer = outcome.transfer;
   if (!transfer.done()) {
-    err << what_went_wrong(request, outcome) << std::endl;
+    err << fault_text(request, outcome) << std::endl;
     if (outcome.interrupted) {
       return exit_interrupted;
     }
@@ -133,7 +133,7 @@ int report(const Request& request, const Outcome& outcome, std::ostream& out, st
     return exit_ok;
   }
   if (!request.file.empty()) {
-    return save(transfer.data, request.file, out, err);
+    return write_file(transfer.data, request.file, out, err);
   }
   const Shown shown = show(request, transfer.data);
   if (!shown.fault.empty()) {

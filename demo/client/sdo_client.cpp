@@ -12,8 +12,8 @@ std::string reason(CO_ERR error) {
   switch (error) {
     case CO_ERR_BAD_ARG: return "an SDO transfer carries at least one byte";
     case CO_ERR_SDO_OFF: return "the NMT state of the master allows no SDO";
-    case CO_ERR_SDO_BUSY: return "a transfer is going on";
-    case CO_ERR_IF_CAN_SEND: return "the bus takes no frames";
+    case CO_ERR_SDO_BUSY: return "another transfer is active";
+    case CO_ERR_IF_CAN_SEND: return "the CAN driver accepts no frames";
     default: return std::string(COErrName(error)) + ": " + COErrText(error);
   }
 }

@@ -39,7 +39,7 @@ Interruption::~Interruption() {
 bool Interruption::happened() { return interrupted != 0; }
 
 void LinuxHost::wait(Micros time) {
-  std::vector<pollfd> ends = wake_ups();
+  std::vector<pollfd> ends = poll_descriptors();
   timespec timeout{};
   timeout.tv_sec = static_cast<time_t>(time / second);
   timeout.tv_nsec = static_cast<long>(time % second * 1000);
@@ -72,7 +72,7 @@ std::string SocketCanHost::open(const std::string& interface, bool device, bool 
   return found.empty() && master ? fault(master_) : found;
 }
 
-std::vector<pollfd> SocketCanHost::wake_ups() {
+std::vector<pollfd> SocketCanHost::poll_descriptors() {
   return {{device_.fd(), POLLIN, 0}, {master_.fd(), POLLIN, 0}};  // -1: not open, which poll() ignores
 }
 

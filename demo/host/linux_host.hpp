@@ -46,7 +46,7 @@ class LinuxHost : public Host {
 
  private:
   /// Returns the descriptors that become readable when a frame arrives.
-  virtual std::vector<pollfd> wake_ups() { return {}; }
+  virtual std::vector<pollfd> poll_descriptors() { return {}; }
 
   const Interruption& interruption_;
   co::LinuxTimer device_timer_;
@@ -87,7 +87,7 @@ class SocketCanHost : public LinuxHost {
   std::string bus_fault() override { return device_.error().empty() ? master_.error() : device_.error(); }
 
  private:
-  std::vector<pollfd> wake_ups() override;
+  std::vector<pollfd> poll_descriptors() override;
 
   co::SocketCan device_;
   co::SocketCan master_;

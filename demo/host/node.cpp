@@ -11,10 +11,10 @@ namespace demo {
 namespace {
 
 // Interval of send attempts while the bus is lost, and limit of the lateness of timers then.
-constexpr Micros patience = 10 * millisecond;
+constexpr Micros resend_interval = 10 * millisecond;
 
 // Limit of frames per call, so that a busy bus delays neither the timers nor the program.
-constexpr unsigned frames_at_once = 32;
+constexpr unsigned frames_per_call = 32;
 
 std::string object_text(std::uint32_t key) {
   return key != 0 ? text(", object %04Xh:%02X", unsigned{CO_GET_IDX(key)}, unsigned{CO_GET_SUB(key)}) : "";
@@ -25,28 +25,28 @@ std::uint32_t frames(const CO_NODE_COUNTERS& counters) { return counters.Receive
 }  // namespace
 
 const CO_IF_CAN_DRV_EX Node::Tap::driver = {
-    [](void* tap) { to(tap).driver->Init(to(tap).context); },
-    [](void* tap, std::uint32_t baud) { to(tap).driver->Enable(to(tap).context, baud); },
+    [](void* tap) { can_of(tap).driver->Init(can_of(tap).context); },
+    [](void* tap, std::uint32_t baud) { can_of(tap).driver->Enable(can_of(tap).context, baud); },
     [](void* tap, CO_IF_FRM* frame) {
-      const std::int16_t result = to(tap).driver->Read(to(tap).context, frame);
+      const std::int16_t result = can_of(tap).driver->Read(can_of(tap).context, frame);
       if (result > 0) {
-        show(tap, true, *frame);
+        report_frame(tap, true, *frame);
       }
       return result;
     },
     [](void* tap, const CO_IF_FRM* frame) {
-      const std::int16_t result = to(tap).driver->Send(to(tap).context, frame);
+      const std::int16_t result = can_of(tap).driver->Send(can_of(tap).context, frame);
       static_cast<Tap*>(tap)->failing = result < 0;
       if (result > 0) {
-        show(tap, false, *frame);
+        report_frame(tap, false, *frame);
       }
       return result;
     },
-    [](void* tap) { to(tap).driver->Reset(to(tap).context); },
-    [](void* tap) { to(tap).driver->Close(to(tap).context); },
+    [](void* tap) { can_of(tap).driver->Reset(can_of(tap).context); },
+    [](void* tap) { can_of(tap).driver->Close(can_of(tap).context); },
     [](void* tap, const std::uint32_t* ids, std::uint16_t num) {
-      if (to(tap).driver->Filter != nullptr && !static_cast<Tap*>(tap)->hears_all) {
-        to(tap).driver->Filter(to(tap).context, ids, num);
+      if (can_of(tap).driver->Filter != nullptr && !static_cast<Tap*>(tap)->observes_all) {
+        can_of(tap).driver->Filter(can_of(tap).context, ids, num);
       }
     },
     [](void* tap, CO_NODE* node, const CO_IF_FRM* frame) {
@@ -56,17 +56,17 @@ const CO_IF_CAN_DRV_EX Node::Tap::driver = {
     },
 };
 
-const Can& Node::Tap::to(void* tap) { return static_cast<Tap*>(tap)->can; }
+const Can& Node::Tap::can_of(void* tap) { return static_cast<Tap*>(tap)->can; }
 
-void Node::Tap::show(void* tap, bool received, const CO_IF_FRM& frame) {
+void Node::Tap::report_frame(void* tap, bool received, const CO_IF_FRM& frame) {
   if (const Observer& observer = static_cast<Tap*>(tap)->observer) {
     observer(received, frame);
   }
 }
 
-Node* Node::at_work_ = nullptr;
+Node* Node::active_node_ = nullptr;
 
-Node::Node(Setup setup) : tap_{setup.can, std::move(setup.observer), setup.hears_all} {
+Node::Node(Setup setup) : tap_{setup.can, std::move(setup.observer), setup.observes_all} {
   extension_.Size = sizeof extension_;
   extension_.Can = &Tap::driver;
   extension_.CanCtx = &tap_;
@@ -86,17 +86,17 @@ Node::Node(Setup setup) : tap_{setup.can, std::move(setup.observer), setup.hears
   spec.TmrNum = static_cast<std::uint16_t>(std::size(timer_));
   spec.TmrFreq = ticks_per_second;
   spec.SdoBuf = sdo_buffer_;
-  at_work_ = this;
+  active_node_ = this;
   CONodeInitEx(&node_, &spec, &extension_);
-  at_work_ = nullptr;
+  active_node_ = nullptr;
 }
 
 Node::~Node() { CONodeStop(&node_); }
 
 bool Node::process() {
   const std::uint32_t before = frames(counters());
-  at_work_ = this;
-  for (unsigned n = 0; n < frames_at_once; ++n) {
+  active_node_ = this;
+  for (unsigned n = 0; n < frames_per_call; ++n) {
     const std::uint32_t received = counters().Received;
     CONodeProcess(&node_);  // one frame per call
     COTmrService(&node_.Tmr);
@@ -105,7 +105,7 @@ bool Node::process() {
       break;
     }
   }
-  at_work_ = nullptr;
+  active_node_ = nullptr;
   return frames(counters()) != before;
 }
 
@@ -125,13 +125,13 @@ std::string Node::error_text() {
 #if USE_LSS && USE_PARA
 
 CO_ERR Node::load_lss(std::uint32_t* bit_rate, std::uint8_t* node_id) {
-  const bool has_memory = at_work_ != nullptr && at_work_->extension_.Nvm != nullptr;
-  return has_memory ? COLssNvmLoad(&at_work_->node_, 0, bit_rate, node_id) : CO_ERR_NONE;
+  const bool has_memory = active_node_ != nullptr && active_node_->extension_.Nvm != nullptr;
+  return has_memory ? COLssNvmLoad(&active_node_->node_, 0, bit_rate, node_id) : CO_ERR_NONE;
 }
 
 CO_ERR Node::store_lss(std::uint32_t bit_rate, std::uint8_t node_id) {
-  const bool has_memory = at_work_ != nullptr && at_work_->extension_.Nvm != nullptr;
-  return has_memory ? COLssNvmStore(&at_work_->node_, 0, bit_rate, node_id) : CO_ERR_NONE;
+  const bool has_memory = active_node_ != nullptr && active_node_->extension_.Nvm != nullptr;
+  return has_memory ? COLssNvmStore(&active_node_->node_, 0, bit_rate, node_id) : CO_ERR_NONE;
 }
 
 #else
@@ -143,7 +143,7 @@ CO_ERR Node::store_lss(std::uint32_t, std::uint8_t) { return CO_ERR_NONE; }
 
 Micros Node::due_in() {
   const Micros due = CONodeNextDeadline(&node_);  // short while frames are queued
-  return tap_.failing ? std::max(due, patience) : due;
+  return tap_.failing ? std::max(due, resend_interval) : due;
 }
 
 }  // namespace demo

@@ -24,7 +24,7 @@ class Node {
     Timer timer;
     Table dictionary;
     Observer observer = {};
-    bool hears_all = false;  // the observer is also called for frames that the node does not receive
+    bool observes_all = false;  // the observer is also called for frames that the node does not receive
     Errors errors = {};
     Memory memory = {};  // byte-writable; without it nothing is stored
   };
@@ -69,14 +69,14 @@ class Node {
   struct Tap {
     Can can;
     Observer observer;
-    bool hears_all;
+    bool observes_all;
     bool failing = false;  // the last frame could not be sent because of an error
     static const CO_IF_CAN_DRV_EX driver;
-    static const Can& to(void* tap);
-    static void show(void* tap, bool received, const CO_IF_FRM& frame);
+    static const Can& can_of(void* tap);
+    static void report_frame(void* tap, bool received, const CO_IF_FRM& frame);
   };
 
-  static Node* at_work_;  // node that is being created or processed, for load_lss() and store_lss(); null: none
+  static Node* active_node_;  // node that is being created or processed, for load_lss() and store_lss(); null: none
 
   Tap tap_;
   CO_NODE_EXT extension_{};

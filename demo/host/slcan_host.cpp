@@ -19,7 +19,7 @@ namespace {
 // Length of the shortest frame on the line: "t0000" and CR.
 constexpr std::size_t shortest_line = 6;
 
-std::string words(int error) { return std::generic_category().message(error); }
+std::string message_of(int error) { return std::generic_category().message(error); }
 
 bool is_socket(const std::string& path) {
   struct stat about {};
@@ -73,7 +73,7 @@ std::string name_of(int pseudo_terminal) {
 }
 
 // Sends bytes. A socket whose other end is closed returns an error instead of raising a signal.
-ssize_t put(int fd, const std::uint8_t* bytes, std::size_t size) {
+ssize_t write_bytes(int fd, const std::uint8_t* bytes, std::size_t size) {
   const ssize_t sent = ::send(fd, bytes, size, MSG_NOSIGNAL);
   return sent < 0 && errno == ENOTSOCK ? ::write(fd, bytes, size) : sent;
 }
@@ -107,9 +107,9 @@ std::string SlcanHost::open(const std::string& path, std::uint32_t bit_rate) {
   path_ = path;
   fd_ = is_socket(path) ? open_socket(path) : open_terminal(path);
   if (fd_ < 0) {
-    return "slcan adapter '" + path + "': " + words(errno);
+    return "slcan adapter '" + path + "': " + message_of(errno);
   }
-  begin();
+  start_controller();
   can_.Baud = bit_rate;
   return {};
 }
@@ -119,24 +119,24 @@ std::string SlcanHost::open_pseudo_terminal() {
   fd_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   path_ = name_of(fd_);
   if (path_.empty()) {
-    return "no pseudo-terminal: " + words(errno);
+    return "no pseudo-terminal: " + message_of(errno);
   }
-  begin();
+  start_controller();
   return {};
 }
 
-void SlcanHost::begin() {
+void SlcanHost::start_controller() {
   ::fcntl(fd_, F_SETFL, O_NONBLOCK);
   const auto start = [](void* host) { at(host).send(); };
   COSlcanInit(&can_, frames_.data(), static_cast<std::uint16_t>(frames_.size()), start, this);
 }
 
 std::string SlcanHost::bus_fault() {
-  if (gone_.empty() && COSlcanRefused(&can_) != 0) {
+  if (fault_.empty() && COSlcanRefused(&can_) != 0) {
     return "slcan adapter '" + path_ + "' has refused a command or a frame" +
            (can_.Baud == 0 ? "; perhaps it needs a --bit-rate" : "");
   }
-  return gone_;
+  return fault_;
 }
 
 bool SlcanHost::has_other_end() const {
@@ -145,12 +145,12 @@ bool SlcanHost::has_other_end() const {
 }
 
 void SlcanHost::wait(Micros time) {
-  constexpr Micros until_next_look = 10 * millisecond;  // interval of polling: poll() does not report that another
-                                                        // program opens it
-  LinuxHost::wait(has_other_end() ? time : std::min(time, until_next_look));
+  constexpr Micros poll_interval = 10 * millisecond;  // interval of polling: poll() does not report that another
+                                                      // program opens it
+  LinuxHost::wait(has_other_end() ? time : std::min(time, poll_interval));
 }
 
-std::vector<pollfd> SlcanHost::wake_ups() {
+std::vector<pollfd> SlcanHost::poll_descriptors() {
   if (!has_other_end()) {
     return {};
   }
@@ -171,7 +171,7 @@ void SlcanHost::receive() {
     return;  // no program has opened it
   }
   if (size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR)) {
-    lose(size == 0 ? "the other end is closed" : words(errno));
+    close_with_fault(size == 0 ? "the other end is closed" : message_of(errno));
   }
   for (ssize_t n = 0; n < size; ++n) {
     COSlcanReceive(&can_, bytes[static_cast<std::size_t>(n)]);
@@ -183,12 +183,12 @@ void SlcanHost::send() {
   std::uint32_t size = COSlcanPending(&can_, &bytes);
   const bool dropped = !has_other_end();
   while (fd_ >= 0 && size != 0) {
-    const ssize_t sent = dropped ? static_cast<ssize_t>(size) : put(fd_, bytes, size);
+    const ssize_t sent = dropped ? static_cast<ssize_t>(size) : write_bytes(fd_, bytes, size);
     if (sent < 0 && (errno == EAGAIN || errno == EINTR)) {
       return;
     }
     if (sent < 0) {
-      lose(words(errno));
+      close_with_fault(message_of(errno));
       return;
     }
     COSlcanSent(&can_, static_cast<std::uint32_t>(sent));
@@ -196,10 +196,10 @@ void SlcanHost::send() {
   }
 }
 
-void SlcanHost::lose(const std::string& why) {
+void SlcanHost::close_with_fault(const std::string& why) {
   ::close(fd_);
   fd_ = -1;
-  gone_ = "slcan adapter '" + path_ + "': " + why;
+  fault_ = "slcan adapter '" + path_ + "': " + why;
 }
 
 }  // namespace demo

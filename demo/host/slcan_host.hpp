@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file slcan_host.hpp
-/// Real time, and a bus over slcan: by a USB adapter, the socket of an emulator, or a pseudo-terminal. The program has
-/// one end, a master or a device.
+/// Host for one node, a master or a device, in real time. Its bus is an slcan connection: a USB adapter, the socket of
+/// an emulator, or a pseudo-terminal.
 #pragma once
 
 #include <array>
@@ -30,22 +30,22 @@ class SlcanHost : public LinuxHost {
   Can master_can() override { return {&driver, this}; }
   void wait(Micros time) override;
   std::string bus_fault() override;
-  bool bus_lost() override { return !gone_.empty(); }
+  bool bus_lost() override { return !fault_.empty(); }
   bool interrupted() override { return LinuxHost::interrupted() || bus_lost(); }
 
  private:
   static const CO_IF_CAN_DRV_EX driver;
   static SlcanHost& at(void* host) { return *static_cast<SlcanHost*>(host); }
 
-  std::vector<pollfd> wake_ups() override;
-  void begin();
+  std::vector<pollfd> poll_descriptors() override;
+  void start_controller();
   bool has_other_end() const;
   void receive();
   void send();
-  void lose(const std::string& why);
+  void close_with_fault(const std::string& why);
 
   std::string path_;
-  std::string gone_;  // reason why the adapter is lost; empty: it is not
+  std::string fault_;  // reason why the adapter is lost; empty: it is not
   int fd_ = -1;
   bool is_pseudo_terminal_ = false;
   std::array<CO_IF_FRM, 256> frames_{};

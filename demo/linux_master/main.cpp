@@ -102,7 +102,7 @@ int run_tour(const CommandLine& line) {
   }
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   const View::Style style = {terminal, terminal && std::getenv("NO_COLOR") == nullptr, line.every_frame, "master"};
-  return take_tour_with(prepared.node, *bus.host, style, std::cout);
+  return run_clock_tour(prepared.node, *bus.host, style, std::cout);
 }
 
 int run_any(const CommandLine& line) {

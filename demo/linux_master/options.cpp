@@ -12,16 +12,16 @@ namespace demo {
 namespace {
 
 constexpr const char* description =
-    "Reads or writes an object of a CANopen node by SDO: expedited, segmented or by block transfer.\n"
+    "Reads or writes an object of a CANopen node by SDO: expedited, segmented or block transfer.\n"
     "Or commands the NMT state of a node or of all nodes.\n"
-    "Or finds nodes without node-ID, and configures nodes, by LSS.\n"
-    "Or takes a tour with a demo clock somewhere on the bus, and shows what goes over it.\n"
-    "It boots on the bus as a node of its own. Standard output gets what was read or found, and nothing else.";
+    "Or finds nodes without node-ID and configures nodes by LSS.\n"
+    "Or runs the tour: uses all services of a demo clock on the bus, and prints the frames.\n"
+    "The master boots as a separate node. Only values read and nodes found are printed to standard output.";
 
 constexpr const char* footer =
     "Index and sub-index are hexadecimal: 1008 and 0x1008 are the same; 0d4104 is decimal. Other numbers are decimal, "
     "or\n"
-    "hexadecimal behind 0x.\n"
+    "hexadecimal with 0x.\n"
     "Without --type, read shows 1008h, 1009h and 100Ah as text, 1, 2, 4 and 8 bytes of other objects as a number in "
     "hex\n"
     "digits, and anything else as a hex dump.\n"
@@ -37,16 +37,17 @@ constexpr const char* footer =
     "  lexican-demo-master lss set-id 5 --store\n"
     "\n"
     "Exit codes:\n"
-    "    0  the object was transferred, the command was sent, the LSS services are done, or all steps of the tour "
-    "went\n"
+    "    0  the object was transferred, the command was sent, the LSS services have succeeded, or all steps of the "
+    "tour went\n"
     "       as expected\n"
-    "    1  the transfer was aborted or refused, there was no answer, the value read is not of the type, or a step of\n"
-    "       the tour went wrong\n"
+    "    1  the transfer was aborted or refused, there was no answer, the value read does not fit the type, or a step "
+    "of\n"
+    "       the tour failed\n"
     "    2  wrong arguments, or the CAN interface, the adapter or the file cannot be used\n"
     "  130  Ctrl-C or SIGTERM has cancelled it";
 
 constexpr const char* lss_footer =
-    "Numbers are decimal, or hexadecimal behind 0x. The options --can, --slcan, --own-id and --timeout can be used, "
+    "Numbers are decimal, or hexadecimal with 0x. The options --can, --slcan, --own-id and --timeout can be used, "
     "too.\n"
     "\n"
     "Examples:\n"
@@ -61,15 +62,17 @@ void add_object_options(CLI::App& app, CommandLine& line) {
   auto* const slcan = app.add_option("--slcan", line.slcan, "slcan adapter to use instead: a serial device or a socket")
                           ->type_name("PATH")
                           ->excludes(can);
-  app.add_option("--bit-rate", line.bit_rate, "Bit rate that the adapter sets, in bit/s [what it has]")
+  app.add_option("--bit-rate", line.bit_rate, "Bit rate that the adapter sets, in bit/s [unchanged]")
       ->type_name("N")
       ->needs(slcan);
-  app.add_option("--node", arguments.node, "Node-ID of the node to talk to, 1...127, or all for nmt [tour: 1]")
+  app.add_option("--node", arguments.node, "Node-ID of the remote node, 1...127, or all for nmt [tour: 1]")
       ->type_name("N");
   app.add_option("--own-id", arguments.own_id, "Node-ID of this master, 1...127 [127, or 126 if that is the node]")
       ->type_name("N");
-  app.add_option("--index", arguments.index, "Index of the object, hexadecimal; decimal behind 0d")->type_name("HEX");
-  app.add_option("--sub", arguments.sub, "Sub-index of the object, likewise")->type_name("HEX")->capture_default_str();
+  app.add_option("--index", arguments.index, "Index of the object, hexadecimal; decimal with 0d")->type_name("HEX");
+  app.add_option("--sub", arguments.sub, "Sub-index of the object, in the same form")
+      ->type_name("HEX")
+      ->capture_default_str();
 }
 
 void add_value_options(CLI::App& app, CommandLine& line) {
@@ -77,14 +80,14 @@ void add_value_options(CLI::App& app, CommandLine& line) {
   app.add_option("--type", arguments.type, value_type_names)->type_name("TYPE");
   app.add_option("--file", arguments.file, "Read into, or write from this file; - is standard output or input")
       ->type_name("FILE");
-  app.add_option("--timeout", arguments.timeout, "Time for each answer of the node, 0: for ever")
+  app.add_option("--timeout", arguments.timeout, "Time-out for each answer of the node, 0: none")
       ->type_name("MS")
       ->capture_default_str();
-  app.add_option("--max", arguments.max, "Bytes that an object without a fixed size may have")
+  app.add_option("--max", arguments.max, "Largest size of an object without fixed size")
       ->type_name("BYTES")
       ->capture_default_str();
   app.add_flag("--every-frame", line.every_frame, "tour: show all frames of long transfers");
-  app.add_flag("--progress", line.progress, "Show the progress also where standard error is no terminal");
+  app.add_flag("--progress", line.progress, "Show the progress also if standard error is not a terminal");
 }
 
 void add_action(CLI::App& lss, CommandLine& line, LssAction action, const char* name, const char* purpose,
@@ -105,16 +108,16 @@ void add_lss(CLI::App& app, CommandLine& line) {
                   "Vendor-ID, product code, revision and serial number [of a node without node-ID]")
       ->type_name("V P R S")
       ->expected(4);
-  lss->add_option("--listen", line.lss.listen, "Time for each of the requests that look for nodes")
+  lss->add_option("--listen", line.lss.listen, "Time to wait for answers to each request that searches for nodes")
       ->type_name("MS")
       ->capture_default_str();
-  lss->add_flag("--store", line.lss.store, "set-id and set-bitrate: let the node store it as well");
+  lss->add_flag("--store", line.lss.store, "set-id and set-bitrate: the node also stores it");
   lss->footer(lss_footer);
-  add_action(*lss, line, LssAction::scan, "scan", "Find all nodes without node-ID, print their addresses", "");
-  add_action(*lss, line, LssAction::set_id, "set-id", "Give a node its node-ID, 1...127", "NODE-ID");
-  add_action(*lss, line, LssAction::set_bit_rate, "set-bitrate", "Give a node its bit rate, in bit/s", "BITRATE");
-  add_action(*lss, line, LssAction::store, "store", "Let a node store node-ID and bit rate", "");
-  add_action(*lss, line, LssAction::inquire, "inquire", "Print the address and the node-ID of a node", "");
+  add_action(*lss, line, LssAction::scan, "scan", "Find all nodes without node-ID, print their LSS addresses", "");
+  add_action(*lss, line, LssAction::set_id, "set-id", "Set the node-ID of a node, 1...127", "NODE-ID");
+  add_action(*lss, line, LssAction::set_bit_rate, "set-bitrate", "Set the bit rate of a node, in bit/s", "BITRATE");
+  add_action(*lss, line, LssAction::store, "store", "Make a node store node-ID and bit rate", "");
+  add_action(*lss, line, LssAction::inquire, "inquire", "Print the LSS address and the node-ID of a node", "");
 }
 
 void add_nmt(CLI::App& app, CommandLine& line) {
@@ -145,7 +148,7 @@ CommandLine read_command_line(int argc, char** argv) {
   write->add_option("VALUE", line.arguments.value, "The value")->type_name("");
   add_nmt(app, line);
   add_lss(app, line);
-  CLI::App* const tour = app.add_subcommand("tour", "Show what a demo clock on the bus can do");
+  CLI::App* const tour = app.add_subcommand("tour", "Use all services of a demo clock on the bus, print the frames");
   tour->set_help_flag();
   try {
     app.parse(argc, argv);

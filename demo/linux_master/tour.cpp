@@ -30,15 +30,15 @@ class ClockElsewhere : public Device {
 
 }  // namespace
 
-int take_tour_with(std::uint8_t node, Host& host, View::Style style, std::ostream& out) {
+int run_clock_tour(std::uint8_t node, Host& host, View::Style style, std::ostream& out) {
   View view(out, clock_object_names(), style, clock_mappings());
   ClockElsewhere clock(node);
   const Micros begin = host.now();
   view.columns();
   Master master(host, clock, node,
                 [&](bool received, const CO_IF_FRM& frame) { view.frame(host.now() - begin, !received, frame); });
-  const TourResult result = take_tour(clock, master, view);
-  summarise(result, master.counters(), view, "master");
+  const TourResult result = run_tour(clock, master, view);
+  print_summary(result, master.counters(), view, "master");
   const std::string fault = host.bus_fault();
   if (!fault.empty()) {
     view.finding(false, fault);

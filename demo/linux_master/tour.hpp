@@ -12,6 +12,6 @@ namespace demo {
 
 /// Starts a separate node on the bus and runs the tour with the clock whose node-ID is \a node. Prints to \a out.
 /// Returns the exit code.
-int take_tour_with(std::uint8_t node, Host& host, View::Style style, std::ostream& out);
+int run_clock_tour(std::uint8_t node, Host& host, View::Style style, std::ostream& out);
 
 }  // namespace demo

@@ -11,7 +11,7 @@ std::uint8_t picture[picture_size];
 constexpr std::uint8_t hardware[] = "host";
 
 /// Sets all variables to their initial values. CONodeInit() loads the stored ones.
-void forget_variables() {
+void reset_variables() {
   clock_set_defaults();
   std::fill(std::begin(picture), std::end(picture), std::uint8_t{0});
 }
@@ -58,7 +58,7 @@ Clock::Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer
 
 void Clock::lose_power() {
   node_.reset();
-  forget_variables();
+  reset_variables();
   node_.emplace(setup_);
 }
 

@@ -16,7 +16,7 @@ bool is_error_control(const CO_IF_FRM& frame) {
 }  // namespace
 
 // Answers to node guarding have the same form, but are sent only while there is no heartbeat.
-void HeartbeatWatch::sent(const CO_IF_FRM& frame, std::uint32_t tick, std::uint32_t period) {
+void HeartbeatWatch::on_sent(const CO_IF_FRM& frame, std::uint32_t tick, std::uint32_t period) {
   if (!is_error_control(frame)) {
     return;
   }
@@ -26,7 +26,7 @@ void HeartbeatWatch::sent(const CO_IF_FRM& frame, std::uint32_t tick, std::uint3
     return;
   }
   const auto late = static_cast<std::int32_t>(tick - due_);
-  latest_ = std::max(latest_, static_cast<std::uint32_t>(std::max(late, 0)));
+  greatest_lateness_ = std::max(greatest_lateness_, static_cast<std::uint32_t>(std::max(late, 0)));
   due_ += period;
   ++number_;
 }

@@ -14,17 +14,17 @@ namespace demo {
 class HeartbeatWatch {
  public:
   /// Evaluates a frame that the node has sent at \a tick. \a period: its current heartbeat time in ticks, 0: none.
-  void sent(const CO_IF_FRM& frame, std::uint32_t tick, std::uint32_t period);
+  void on_sent(const CO_IF_FRM& frame, std::uint32_t tick, std::uint32_t period);
 
   std::uint32_t number() const { return number_; }
   /// Returns the largest lateness of a heartbeat, in ticks.
-  std::uint32_t latest() const { return latest_; }
+  std::uint32_t greatest_lateness() const { return greatest_lateness_; }
 
  private:
   std::uint32_t period_ = 0;  // ticks, 0: no previous heartbeat to count from
   std::uint32_t due_ = 0;     // tick of the next heartbeat
   std::uint32_t number_ = 0;
-  std::uint32_t latest_ = 0;
+  std::uint32_t greatest_lateness_ = 0;
 };
 
 }  // namespace demo

@@ -131,8 +131,8 @@ std::string about_master(Clock& clock, const Bus& bus, const Options& options) {
 
 int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
   Master master(host, clock, options.node_id);
-  const TourResult result = take_tour(clock, master, view);
-  summarise(result, clock.node().counters(), view);
+  const TourResult result = run_tour(clock, master, view);
+  print_summary(result, clock.node().counters(), view);
   if (!result.failed.empty() && !host.bus_fault().empty()) {
     view.finding(false, host.bus_fault());
   }
@@ -172,9 +172,9 @@ int serve(Host& host, Clock& clock, const HeartbeatWatch& heartbeats, View& view
     faults.update(host, clock, view);
     host.wait(clock.node().due_in());
   }
-  view.line("\nThe end");
-  show_counters(clock.node().counters(), view);
-  view.note("", text("%u heartbeats, the latest %u us after its time", heartbeats.number(), heartbeats.latest()));
+  view.line("\nSummary");
+  print_counters(clock.node().counters(), view);
+  view.note("", text("%u heartbeats, greatest lateness %u us", heartbeats.number(), heartbeats.greatest_lateness()));
   return exit_ok;
 }
 
@@ -197,8 +197,8 @@ int run(const Options& options) {
   HeartbeatWatch heartbeats;
   const Node::Observer observer = [&](bool received, const CO_IF_FRM& frame) {
     if (!received) {
-      heartbeats.sent(frame, timer.driver->Now(timer.context),
-                      clock_ram.producer_heartbeat_time * ticks_per_millisecond);
+      heartbeats.on_sent(frame, timer.driver->Now(timer.context),
+                         clock_ram.producer_heartbeat_time * ticks_per_millisecond);
     }
     if (!options.quiet) {
       view.frame(host.now() - begin, received, frame);

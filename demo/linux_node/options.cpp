@@ -14,17 +14,17 @@ namespace {
 constexpr const char* unconfigured = "unconfigured";
 
 constexpr const char* description =
-    "A CANopen node, the demo clock of Lexican, and a small master that shows what the node can do.\n"
-    "Without options: uses vcan0 if there is one, else a bus built into the program, with a simulated time.\n"
+    "A CANopen node, the demo clock of Lexican, and a small master that uses all its services.\n"
+    "Without options: uses vcan0 if there is one, else a bus inside the program, with simulated time.\n"
     "With --serve: the node alone, for lexican-demo-master or your own tools, until Ctrl-C. Uses vcan0 if there is "
     "one,\n"
     "else slcan on a pseudo-terminal, whose name it prints.\n"
-    "An unconfigured node waits until an LSS master gives it a node-ID, as lexican-demo-master lss set-id does.";
+    "An unconfigured node starts when an LSS master has set its node-ID, as lexican-demo-master lss set-id does.";
 
 constexpr const char* footer =
     "Exit codes:\n"
     "    0  all steps went as expected; --serve: ended by Ctrl-C or SIGTERM\n"
-    "    1  a step went wrong\n"
+    "    1  a step failed\n"
     "    2  wrong arguments, or the CAN interface or the file cannot be used\n"
     "  130  ended by Ctrl-C or SIGTERM before the last step";
 
@@ -49,7 +49,7 @@ CommandLine read_command_line(int argc, char** argv) {
       ->check(CLI::Validator(node_id_fault, ""))
       ->capture_default_str();
   auto* const serve = app.add_flag("--serve", options.serve, "Run the node alone, and show what it receives and sends");
-  app.add_option("--storage", options.storage, "File in which the clock keeps node-ID, name and time zone [RAM]")
+  app.add_option("--storage", options.storage, "File in which the clock stores node-ID, name and time zone [RAM]")
       ->type_name("FILE")
       ->needs(serve);
   app.add_option("--serial", options.serial, "Serial number, 1018h:4 [one for each storage file, else a random one]")
@@ -59,7 +59,7 @@ CommandLine read_command_line(int argc, char** argv) {
   app.add_flag("--virtual", options.virtual_bus, "Use the built-in bus, even if there is a vcan0")
       ->excludes(can)
       ->excludes(serve);
-  app.add_flag("--pty", options.pseudo_terminal, "Serve on a pseudo-terminal (slcan), even if there is a vcan0")
+  app.add_flag("--pty", options.pseudo_terminal, "Use a pseudo-terminal (slcan), even if there is a vcan0")
       ->excludes(can)
       ->needs(serve);
   auto* const quiet = app.add_flag("--quiet", options.quiet, "Show no frames");

@@ -19,9 +19,9 @@ namespace {
 constexpr std::uint8_t node_id = 1;
 
 constexpr const char* help =
-    "Shows a small CANopen node, a thermometer, on a bus inside of the program: three seconds of a simulated time, in\n"
-    "which it gets too warm. Each frame is printed with its time, CAN-ID, bytes and meaning.\n"
-    "Its dictionary is written by hand, in demo/thermometer/thermometer.cpp: a beginning for one of your own.\n"
+    "Runs a small CANopen node, a thermometer, on a bus inside the program: three seconds of simulated time, in\n"
+    "which its temperature rises above the limit. Each frame is printed with its time, CAN-ID, bytes and meaning.\n"
+    "Its dictionary is written by hand, in demo/thermometer/thermometer.cpp: a starting point for your own.\n"
     "Usage: lexican-demo-thermometer [OPTIONS]\n"
     "\n"
     "Options:\n"

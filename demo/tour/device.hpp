@@ -14,7 +14,7 @@ struct DeviceTraits {
   std::uint32_t picture_width;   // pixels
   std::uint32_t picture_height;  // pixels
   bool can_lose_power;           // lose_power() works and keeps the stored values
-  unsigned patience;             // factor of all time-outs
+  unsigned timeout_factor;       // factor of all time-outs
 
   /// Returns the size in bytes: red, green and blue of each pixel.
   constexpr std::uint32_t picture_size() const { return picture_width * picture_height * 3; }

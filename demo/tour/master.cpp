@@ -8,7 +8,7 @@ namespace {
 
 SdoClient::Options sdo_options(const Device& device) {
   SdoClient::Options options;
-  options.timeout *= device.traits().patience;
+  options.timeout *= device.traits().timeout_factor;
   return options;
 }
 
@@ -22,7 +22,7 @@ Master::Master(Host& host, Device& device, std::uint8_t node_id, Node::Observer 
       observer_(std::move(observer)),
       dictionary_(node_id),
       node_({own_node_id(node_id), host.master_can(), host.master_timer(), dictionary_.table(),
-             [this](bool received, const CO_IF_FRM& frame) { note(received, frame); }, true}),
+             [this](bool received, const CO_IF_FRM& frame) { record_frame(received, frame); }, true}),
       loop_(host, nodes(device, node_)),
       sdo_(node_, loop_, sdo_options(device)) {
   CONodeStart(&node_.stack());
@@ -33,34 +33,34 @@ std::vector<Node*> Master::nodes(Device& device, Node& own) {
   return other == nullptr ? std::vector{&own} : std::vector{other, &own};
 }
 
-void Master::note(bool received, const CO_IF_FRM& frame) {
+void Master::record_frame(bool received, const CO_IF_FRM& frame) {
   if (observer_) {
     observer_(received, frame);
   }
   if (received && frame.Identifier == 0x700u + node_id_ && frame.DLC == 1) {
-    heard_.push_back(static_cast<State>(frame.Data[0]));
+    states_.push_back(static_cast<State>(frame.Data[0]));
   }
   if (received && frame.Identifier < 0x580) {
     frames_.push_back(frame);
   }
 }
 
-void Master::forget() {
-  heard_.clear();
+void Master::discard_received() {
+  states_.clear();
   frames_.clear();
 }
 
 bool Master::send(CO_IF_FRM frame) {
-  forget();
+  discard_received();
   return COIfCanSend(&node_.stack().If, &frame) > 0;
 }
 
 bool Master::command(Nmt command) { return send({0x000, {static_cast<std::uint8_t>(command), node_id_}, 2}); }
 
-bool Master::has_heard(State state) {
-  while (!heard_.empty()) {
-    const State next = heard_.front();
-    heard_.pop_front();
+bool Master::has_received_state(State state) {
+  while (!states_.empty()) {
+    const State next = states_.front();
+    states_.pop_front();
     if (next == state) {
       return true;
     }
@@ -68,7 +68,7 @@ bool Master::has_heard(State state) {
   return false;
 }
 
-std::optional<CO_IF_FRM> Master::take_frame(std::uint32_t identifier) {
+std::optional<CO_IF_FRM> Master::next_frame(std::uint32_t identifier) {
   while (!frames_.empty()) {
     const CO_IF_FRM next = frames_.front();
     frames_.pop_front();
@@ -81,12 +81,12 @@ std::optional<CO_IF_FRM> Master::take_frame(std::uint32_t identifier) {
 
 std::optional<CO_IF_FRM> Master::await_frame(std::uint32_t identifier, Micros timeout) {
   std::optional<CO_IF_FRM> frame;
-  loop_.run_until([&] { return (frame = take_frame(identifier)).has_value(); }, timeout);
+  loop_.run_until([&] { return (frame = next_frame(identifier)).has_value(); }, timeout);
   return frame;
 }
 
 bool Master::await_state(State state, Micros timeout) {
-  return loop_.run_until([&] { return has_heard(state); }, timeout);
+  return loop_.run_until([&] { return has_received_state(state); }, timeout);
 }
 
 }  // namespace demo

@@ -36,7 +36,7 @@ class Master {
   /// Waits for the next frame of an identifier, received since the last command or sent frame.
   std::optional<CO_IF_FRM> await_frame(std::uint32_t identifier, Micros timeout);
   /// Discards the frames received so far.
-  void forget();
+  void discard_received();
 
   SdoClient& sdo() { return sdo_; }
 #if USE_LSS_MASTER
@@ -48,13 +48,13 @@ class Master {
 
  private:
   static std::vector<Node*> nodes(Device& device, Node& own);
-  void note(bool received, const CO_IF_FRM& frame);
-  bool has_heard(State state);
-  std::optional<CO_IF_FRM> take_frame(std::uint32_t identifier);
+  void record_frame(bool received, const CO_IF_FRM& frame);
+  bool has_received_state(State state);
+  std::optional<CO_IF_FRM> next_frame(std::uint32_t identifier);
 
   std::uint8_t node_id_;
   Node::Observer observer_;
-  std::deque<State> heard_;       // received states of the node, not yet checked
+  std::deque<State> states_;      // received states of the node, not yet checked
   std::deque<CO_IF_FRM> frames_;  // received PDO, SYNC and EMCY messages, not yet checked
   ClientDictionary dictionary_;
   Node node_;

@@ -55,14 +55,14 @@ Finding expect_text(const char* what, const Transfer& transfer, const char* expe
 
 // --- The steps
 
-bool has_booted(Tour& tour) { return tour.master.await_state(State::boot_up, at_most(tour, second)); }
+bool has_booted(Tour& tour) { return tour.master.await_state(State::boot_up, scaled_timeout(tour, second)); }
 
 /// Waits for the boot-up message. A device outside this program may have booted earlier; then it is reset.
 Finding boot(Tour& tour) {
-  const bool is_elsewhere = tour.device.node_in_loop() == nullptr;
+  const bool is_remote = tour.device.node_in_loop() == nullptr;
   const bool booted = tour.device.start() &&
-                      (has_booted(tour) || (is_elsewhere && tour.master.command(Nmt::reset_node) && has_booted(tour)));
-  return {booted, text(booted ? "node %u is there" : "node %u does not boot", tour.master.node_id())};
+                      (has_booted(tour) || (is_remote && tour.master.command(Nmt::reset_node) && has_booted(tour)));
+  return {booted, text(booted ? "node %u has booted" : "no boot-up message of node %u", tour.master.node_id())};
 }
 
 Finding identify(Tour& tour) {
@@ -145,16 +145,17 @@ Finding fetch_picture(Tour& tour) {
 
 Finding start(Tour& tour) {
   if (!tour.master.command(Nmt::start)) {
-    return {false, "the bus takes no frames"};
+    return {false, "the CAN driver accepts no frames"};
   }
-  const bool good = tour.master.await_state(State::operational, at_most(tour, heartbeat_timeout)) &&
-                    tour.master.await_state(State::operational, at_most(tour, heartbeat_timeout));
-  return {good, good ? "operational, two heartbeats" : "no heartbeat says operational"};
+  const bool good = tour.master.await_state(State::operational, scaled_timeout(tour, heartbeat_timeout)) &&
+                    tour.master.await_state(State::operational, scaled_timeout(tour, heartbeat_timeout));
+  return {good, good ? "operational, two heartbeats" : "no heartbeat with the state operational"};
 }
 
 Finding stop(Tour& tour) {
-  if (!tour.master.command(Nmt::stop) || !tour.master.await_state(State::stopped, at_most(tour, heartbeat_timeout))) {
-    return {false, "no heartbeat says stopped"};
+  if (!tour.master.command(Nmt::stop) ||
+      !tour.master.await_state(State::stopped, scaled_timeout(tour, heartbeat_timeout))) {
+    return {false, "no heartbeat with the state stopped"};
   }
   SdoClient::Options options;
   options.timeout = 200;
@@ -164,8 +165,8 @@ Finding stop(Tour& tour) {
 
 Finding enter_pre_operational(Tour& tour) {
   const bool good = tour.master.command(Nmt::enter_pre_operational) &&
-                    tour.master.await_state(State::pre_operational, at_most(tour, heartbeat_timeout));
-  return {good, good ? "pre-operational again" : "no heartbeat says pre-operational"};
+                    tour.master.await_state(State::pre_operational, scaled_timeout(tour, heartbeat_timeout));
+  return {good, good ? "pre-operational again" : "no heartbeat with the state pre-operational"};
 }
 
 Finding read_clock(Tour& tour) {
@@ -185,20 +186,21 @@ Finding read_clock(Tour& tour) {
   const std::uint32_t shown = (figure[0] * 60u + figure[1]) * 60u + figure[2];
   // The clock was set within one of its seconds; a clock elsewhere is set some time after the beginning.
   const std::uint32_t seconds = (shown + seconds_per_day - set) % seconds_per_day;
-  const bool right = seconds <= passed + 1 && seconds + tour.traits.patience >= passed;
+  const bool right = seconds <= passed + 1 && seconds + tour.traits.timeout_factor >= passed;
   return {right, text("%02u:%02u:%02u, %u s after it was set", figure[0], figure[1], figure[2], passed)};
 }
 
 Finding reset(Tour& tour) {
   const bool good = tour.master.command(Nmt::reset_node) && has_booted(tour) &&
-                    tour.master.await_state(State::pre_operational, at_most(tour, heartbeat_timeout));
-  return {good, good ? "booted again, pre-operational, heartbeat on" : "the node did not come back"};
+                    tour.master.await_state(State::pre_operational, scaled_timeout(tour, heartbeat_timeout));
+  return {good,
+          good ? "booted again, pre-operational, heartbeat on" : "no boot-up message and heartbeat after the reset"};
 }
 
 struct Step {
   const char* title;
   const char* shown;  // text in the summary
-  Finding (*take)(Tour& tour);
+  Finding (*run)(Tour& tour);
   State begin = State::pre_operational;  // state of the node before the step; boot_up: unknown
 };
 
@@ -208,48 +210,49 @@ constexpr Step configured[] = {
 
 #if USE_LSS_MASTER
 constexpr Step unconfigured[] = {
-    {"A node without node-ID: LSS fastscan finds out who it is", "LSS fastscan", find_unconfigured, State::boot_up},
-    {"It gets a node-ID, stores it, and boots", "LSS configuration", give_node_id, State::boot_up},
+    {"LSS fastscan finds the address of a node without node-ID", "LSS fastscan", find_unconfigured, State::boot_up},
+    {"LSS configures and stores its node-ID; the node boots", "LSS configuration", configure_node_id, State::boot_up},
 };
 #endif
 
 constexpr Step introduction[] = {
-    {"Who is it? Device type and identity, by expedited SDO", "identity", identify},
-    {"Its name has more than 4 bytes: segmented SDO", "segmented upload", read_name},
-    {"Give the station a name: segmented download", "segmented download", name_station},
+    {"Read device type and identity: expedited upload", "identity", identify},
+    {"Read the device name, more than 4 bytes: segmented upload", "segmented upload", read_name},
+    {"Write the station name: segmented download", "segmented download", name_station},
 };
 
 #if USE_PARA
 constexpr Step storing[] = {
-    {"Set its time zone, and save both", "parameters stored", save_settings},
+    {"Write the time zone; save time zone and station name", "parameters stored", save_settings},
 };
 constexpr Step losing_power[] = {
-    {"The node loses its power, and starts again with what it has stored", "power failure", lose_power},
+    {"Power failure: the node restarts with its stored values", "power failure", lose_power},
 };
 constexpr Step resetting[] = {
-    {"Another time zone is not saved: after an NMT reset it is gone", "parameters loaded", reset_settings},
+    {"Write another time zone without saving it; an NMT reset restores the stored one", "parameters loaded",
+     reset_settings},
 };
 #endif
 
 constexpr Step further_steps[] = {
     {"Set the clock", "expedited download", set_clock},
-    {"The clock refuses hour 24 with an abort code of its own", "abort of the application", set_impossible_hour},
-    {"An object that does not exist", "abort: no object", read_missing_object},
-    {"An object that cannot be written", "abort: read-only", write_constant},
-    {"A picture for the clock: block download", "block download", send_picture},
-    {"And back, every byte compared: block upload", "block upload", fetch_picture},
-    {"Start the node, and wait for its heartbeat", "NMT start, heartbeat", start},
-    {"TPDO1 tells the time, each second", "event-driven TPDO", hear_time, State::operational},
-    {"Set the clock by RPDO1: TPDO1 tells it, when its inhibit time is over", "RPDO", set_clock_by_pdo,
+    {"Write hour 24: the application refuses it with an abort code", "abort of the application", set_impossible_hour},
+    {"Read an object that does not exist", "abort: no object", read_missing_object},
+    {"Write an object that is read-only", "abort: read-only", write_constant},
+    {"Write a picture: block download", "block download", send_picture},
+    {"Read the picture and compare every byte: block upload", "block upload", fetch_picture},
+    {"NMT start; wait for the heartbeat", "NMT start, heartbeat", start},
+    {"TPDO1 transmits the time each second", "event-driven TPDO", receive_time, State::operational},
+    {"Set the clock by RPDO1; TPDO1 follows when its inhibit time has elapsed", "RPDO", set_clock_by_pdo,
      State::operational},
-    {"A time that no clock shows: an emergency, until it is right again", "EMCY", set_nonsense_by_pdo,
+    {"Set an invalid time by RPDO1: EMCY, and error reset after a valid time", "EMCY", set_invalid_time_by_pdo,
      State::operational},
-    {"The node produces SYNC, and sends TPDO1 with each of them", "SYNC, synchronous TPDO", produce_sync,
+    {"The node produces SYNC and transmits TPDO1 after each", "SYNC, synchronous TPDO", produce_sync,
      State::operational},
-    {"Stop the node: SDO is silent now", "NMT stop", stop, State::operational},
-    {"Back to pre-operational", "NMT enter pre-operational", enter_pre_operational, State::stopped},
-    {"Meanwhile the clock has run", "a cyclic timer", read_clock},
-    {"Reset the node", "NMT reset node", reset},
+    {"NMT stop: the node does not answer SDO requests", "NMT stop", stop, State::operational},
+    {"NMT enter pre-operational", "NMT enter pre-operational", enter_pre_operational, State::stopped},
+    {"Read the clock: its timer has advanced the time", "a cyclic timer", read_clock},
+    {"NMT reset node", "NMT reset node", reset},
 };
 
 Nmt command_to(State state) {
@@ -261,11 +264,11 @@ Nmt command_to(State state) {
 }
 
 /// Runs a step. After a failed step the node may be in another state than the step requires: switches the state first.
-Finding take(const Step& step, bool after_failure, Tour& tour) {
+Finding run_step(const Step& step, bool after_failure, Tour& tour) {
   const bool is_ready =
       !after_failure || step.begin == State::boot_up ||
       (tour.master.command(command_to(step.begin)) && tour.master.await_state(step.begin, heartbeat_timeout));
-  return is_ready ? step.take(tour) : Finding{false, "the node does not get back to where this begins"};
+  return is_ready ? step.run(tour) : Finding{false, "the node does not enter the NMT state in which this step begins"};
 }
 
 template <std::size_t Number>
@@ -291,7 +294,7 @@ std::vector<Step> steps_with([[maybe_unused]] const Device& device) {
 }
 
 /// Prints several items per line.
-void show_list(const std::vector<std::string>& items, View& view) {
+void print_list(const std::vector<std::string>& items, View& view) {
   constexpr std::size_t per_line = 5;
   for (std::size_t first = 0; first < items.size(); first += per_line) {
     const std::size_t end = std::min(first + per_line, items.size());
@@ -305,16 +308,16 @@ void show_list(const std::vector<std::string>& items, View& view) {
 
 }  // namespace
 
-TourResult take_tour(Device& device, Master& master, View& view) {
+TourResult run_tour(Device& device, Master& master, View& view) {
   Tour tour{device, master, view};
   const std::vector<Step> all = steps_with(device);
   TourResult result;
-  result.of = all.size();
+  result.total = all.size();
   const Micros begin = master.loop().now();
   bool has_failed = false;  // result of the previous step
   for (const Step& step : all) {
     view.heading(result.steps + 1, step.title);
-    const Finding finding = take(step, has_failed, tour);
+    const Finding finding = run_step(step, has_failed, tour);
     master.loop().run_for(millisecond);  // the last frames still belong to this step
     if (master.loop().interrupted()) {
       result.interrupted = true;
@@ -333,26 +336,26 @@ TourResult take_tour(Device& device, Master& master, View& view) {
   return result;
 }
 
-void summarise(const TourResult& result, const CO_NODE_COUNTERS& counters, View& view, const char* whose) {
+void print_summary(const TourResult& result, const CO_NODE_COUNTERS& counters, View& view, const char* label) {
   const double seconds = static_cast<double>(result.duration) / static_cast<double>(second);
-  const std::string taken = text("%u of %zu steps in %.1f s", result.steps, result.of, seconds);
+  const std::string duration = text("%u of %zu steps in %.1f s", result.steps, result.total, seconds);
   view.line("\nSummary");
-  show_list(result.shown, view);
-  show_counters(counters, view, whose);
+  print_list(result.shown, view);
+  print_counters(counters, view, label);
   for (const std::string& title : result.failed) {
     view.finding(false, title);
   }
   if (result.interrupted) {
-    view.note("end", "interrupted: " + taken);
+    view.note("end", "interrupted: " + duration);
   } else if (result.failed.empty()) {
-    view.finding(true, taken + ", all as expected");
+    view.finding(true, duration + ", all as expected");
   } else {
-    view.finding(false, taken + text(", %zu not as expected", result.failed.size()));
+    view.finding(false, duration + text(", %zu not as expected", result.failed.size()));
   }
 }
 
-void show_counters(const CO_NODE_COUNTERS& counters, View& view, const char* whose) {
-  view.note(whose, text("%u frames received, %u sent; %u unclaimed, %u malformed, %u dropped, %u SDO aborts",
+void print_counters(const CO_NODE_COUNTERS& counters, View& view, const char* label) {
+  view.note(label, text("%u frames received, %u sent; %u unclaimed, %u malformed, %u dropped, %u SDO aborts",
                         counters.Received, counters.Sent, counters.Unclaimed, counters.Malformed, counters.Dropped,
                         counters.SdoAborts));
 }

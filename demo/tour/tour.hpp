@@ -14,7 +14,7 @@ namespace demo {
 
 struct TourResult {
   unsigned steps = 0;               // completed steps
-  std::size_t of = 0;               // number of all steps
+  std::size_t total = 0;            // number of all steps
   std::vector<std::string> shown;   // results of the successful steps
   std::vector<std::string> failed;  // titles of the failed steps
   Micros duration = 0;
@@ -22,10 +22,10 @@ struct TourResult {
 };
 
 /// Runs all steps, even after failed ones. The master configures a clock without node-ID.
-TourResult take_tour(Device& device, Master& master, View& view);
+TourResult run_tour(Device& device, Master& master, View& view);
 
-/// Prints the summary: results, and counters of a node. \a whose: the label before its counters.
-void summarise(const TourResult& result, const CO_NODE_COUNTERS& counters, View& view, const char* whose = "node");
-void show_counters(const CO_NODE_COUNTERS& counters, View& view, const char* whose = "node");
+/// Prints the summary: results, and counters of a node. \a label: text before the counters.
+void print_summary(const TourResult& result, const CO_NODE_COUNTERS& counters, View& view, const char* label = "node");
+void print_counters(const CO_NODE_COUNTERS& counters, View& view, const char* label = "node");
 
 }  // namespace demo

@@ -32,14 +32,14 @@ Finding find_unconfigured(Tour& tour) {
                found[2], found[3])};
 }
 
-Finding give_node_id(Tour& tour) {
+Finding configure_node_id(Tour& tour) {
   LssMaster& lss = tour.master.lss();
   const std::uint8_t node_id = tour.master.node_id();
   if (!lss.run(COLssmConfigureNodeId, node_id) || !lss.run(COLssmStore) || !lss.run(COLssmSwitchGlobal, waiting)) {
     return {false, "LSS: " + lss.fault()};
   }
-  const bool booted = tour.master.await_state(State::boot_up, at_most(tour, second));
-  return {booted, text(booted ? "node %u is there" : "node %u does not boot", node_id)};
+  const bool booted = tour.master.await_state(State::boot_up, scaled_timeout(tour, second));
+  return {booted, text(booted ? "node %u has booted" : "no boot-up message of node %u", node_id)};
 }
 
 #endif
@@ -61,9 +61,9 @@ Finding save_settings(Tour& tour) {
 
 Finding lose_power(Tour& tour) {
   tour.device.lose_power();
-  tour.master.forget();
-  if (!tour.device.start() || !tour.master.await_state(State::boot_up, at_most(tour, second))) {
-    return {false, text("node %u does not come back", tour.master.node_id())};
+  tour.master.discard_received();
+  if (!tour.device.start() || !tour.master.await_state(State::boot_up, scaled_timeout(tour, second))) {
+    return {false, text("no boot-up message of node %u", tour.master.node_id())};
   }
   const Transfer name = tour.sdo.upload(0x2201, 0);
   const Transfer zone = tour.sdo.upload(0x2101, 0);
@@ -80,8 +80,8 @@ Finding reset_settings(Tour& tour) {
   if (const Transfer changed = tour.sdo.download(0x2101, 0, {0, 0}); !changed.done()) {
     return failure("the time zone", changed);
   }
-  if (!tour.master.command(Nmt::reset_node) || !tour.master.await_state(State::boot_up, at_most(tour, second))) {
-    return {false, text("node %u does not come back", tour.master.node_id())};
+  if (!tour.master.command(Nmt::reset_node) || !tour.master.await_state(State::boot_up, scaled_timeout(tour, second))) {
+    return {false, text("no boot-up message of node %u", tour.master.node_id())};
   }
   const Transfer zone = tour.sdo.upload(0x2101, 0);
   if (!zone.done()) {

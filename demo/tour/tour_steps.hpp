@@ -44,13 +44,13 @@ inline Finding failure(const char* what, const Transfer& transfer) {
 }
 
 /// Checks that TPDO1 transmits the time. The node must be in Operational.
-Finding hear_time(Tour& tour);
+Finding receive_time(Tour& tour);
 
 /// Sets the clock by RPDO1.
 Finding set_clock_by_pdo(Tour& tour);
 
 /// Sets the clock by RPDO1 to an invalid time, and expects an EMCY message.
-Finding set_nonsense_by_pdo(Tour& tour);
+Finding set_invalid_time_by_pdo(Tour& tour);
 
 /// Lets the node produce SYNC for a while, with a synchronous TPDO1.
 Finding produce_sync(Tour& tour);
@@ -60,11 +60,11 @@ Finding produce_sync(Tour& tour);
 Finding find_unconfigured(Tour& tour);
 
 /// Configures and stores the node-ID of the found node, which boots then.
-Finding give_node_id(Tour& tour);
+Finding configure_node_id(Tour& tour);
 #endif
 
 /// Returns the time-out for an event that is expected within \a time.
-inline Micros at_most(const Tour& tour, Micros time) { return time * tour.traits.patience; }
+inline Micros scaled_timeout(const Tour& tour, Micros time) { return time * tour.traits.timeout_factor; }
 
 /// Sets the time zone, and stores it with the name of the station.
 Finding save_settings(Tour& tour);

@@ -9,7 +9,7 @@ namespace demo {
 namespace {
 
 constexpr unsigned segments_shown = 4;
-constexpr unsigned segments_worth_showing = 4;  // further segments; if there are more, they are folded
+constexpr unsigned fewest_folded = 4;  // further segments; if there are more, they are folded
 
 // Select Graphic Rendition of ECMA-48.
 constexpr const char* plain = "";
@@ -43,7 +43,7 @@ const char* colour_of(bool received, const std::string& meaning) {
 
 }  // namespace
 
-void View::put(const Row& row) {
+void View::print_row(const Row& row) {
   const bool coloured = style_.colours && *row.colour != '\0';
   out_ << (bar_shown_ ? erase_line : "");
   bar_shown_ = false;
@@ -52,10 +52,12 @@ void View::put(const Row& row) {
 
 void View::line(const std::string& text) {
   end_fold();
-  put({plain, text});
+  print_row({plain, text});
 }
 
-void View::columns() { put({grey, text("%9s  %-6s  %-3s  %-23s  %s", "time/s", "from", "ID", "bytes", "meaning")}); }
+void View::columns() {
+  print_row({grey, text("%9s  %-6s  %-3s  %-23s  %s", "time/s", "from", "ID", "bytes", "meaning")});
+}
 
 View::Row View::row(Micros time, bool received, const CO_IF_FRM& frame, const std::string& meaning) const {
   const double seconds = static_cast<double>(time) / static_cast<double>(second);
@@ -65,7 +67,7 @@ View::Row View::row(Micros time, bool received, const CO_IF_FRM& frame, const st
 }
 
 /// Returns true if frames have been left out.
-bool View::is_folding() const { return segments_ > segments_shown + segments_worth_showing; }
+bool View::is_folding() const { return segments_ > segments_shown + fewest_folded; }
 
 void View::frame(Micros time, bool received, const CO_IF_FRM& frame) {
   const trace::Meaning meaning = decoder_.decode(frame);
@@ -78,12 +80,12 @@ void View::frame(Micros time, bool received, const CO_IF_FRM& frame) {
   if (meaning.place == trace::Place::edge || !is_folding()) {  // frames of other services may occur in between
     end_fold();
   }
-  put(row(time, received, frame, meaning.text));
+  print_row(row(time, received, frame, meaning.text));
 }
 
 void View::show_or_hold_back(const Row& row) {
   if (segments_ <= segments_shown) {
-    put(row);
+    print_row(row);
   } else {
     held_back_.push_back(row);
   }
@@ -95,7 +97,7 @@ void View::progress(const std::string& text) {
   }
   const std::string line = demo::text("%9s  ", "") + text;
   if (!style_.terminal) {
-    put({grey, line});
+    print_row({grey, line});
     return;
   }
   out_ << erase_line << line << std::flush;
@@ -104,23 +106,23 @@ void View::progress(const std::string& text) {
 
 void View::heading(unsigned number, const std::string& title) {
   end_fold();
-  put({plain, ""});
-  put({bold, text("%2u. ", number) + title});
+  print_row({plain, ""});
+  print_row({bold, text("%2u. ", number) + title});
 }
 
 void View::finding(bool good, const std::string& text) { note(good ? "ok" : "FAILED", text, good ? green : red); }
 
 void View::note(const char* label, const std::string& text, const char* colour) {
   end_fold();
-  put({colour, demo::text("%9s  ", label) + text});
+  print_row({colour, demo::text("%9s  ", label) + text});
 }
 
 void View::end_fold() {
   if (is_folding()) {
-    put({grey, text("%9s  %u more frames like these", "...", segments_ - segments_shown)});
+    print_row({grey, text("%9s  %u more frames of this transfer", "...", segments_ - segments_shown)});
   } else {
     for (const Row& row : held_back_) {
-      put(row);
+      print_row(row);
     }
   }
   held_back_.clear();

@@ -51,7 +51,7 @@ class View {
   bool is_folding() const;
   void show_or_hold_back(const Row& row);
   void end_fold();
-  void put(const Row& row);
+  void print_row(const Row& row);
 
   std::ostream& out_;
   trace::Decoder decoder_;

@@ -166,7 +166,7 @@ std::string block_segment(const CO_IF_FRM& frame) {
 }
 
 std::string block_acknowledge(const CO_IF_FRM& frame) {
-  return text("block segments taken up to %u", frame.Data[1]) + block_size(frame.Data[2]);
+  return text("block segments confirmed up to %u", frame.Data[1]) + block_size(frame.Data[2]);
 }
 
 std::string block_end(const CO_IF_FRM& frame) {
@@ -226,7 +226,7 @@ std::string request(const CO_IF_FRM& frame, const Names& names) {
 std::string response(const CO_IF_FRM& frame, const Names& names) {
   switch (command(frame)) {
     case 0: return "SDO answer: " + segment(frame);
-    case 1: return "SDO answer: segment taken" + toggle_of(frame);
+    case 1: return "SDO answer: segment confirmed" + toggle_of(frame);
     case 2: return "SDO answer: " + object(frame, names) + content(frame, names);
     case 3: return "SDO answer: " + object(frame, names) + " download accepted";
     case 4: return abort(frame, names);

@@ -49,7 +49,7 @@ std::string limits(const CO_IF_FRM& frame) {
 std::string scan(const CO_IF_FRM& frame) {
   const unsigned bit = frame.Data[5];
   if (bit == fastscan_begin) {
-    return "LSS fastscan: who has no node-ID?";
+    return "LSS fastscan start: all nodes without node-ID";
   }
   return std::string("LSS fastscan ") + part(frame.Data[6]) + number(frame) + text(", bits 31...%u", bit);
 }
@@ -71,7 +71,7 @@ std::string request(const CO_IF_FRM& frame) {
     case 0x13: return "LSS configure bit timing: " + bit_timing(frame);
     case 0x15: return text("LSS activate bit timing, delay %u ms", CO_GET_WORD(&frame, 1));
     case 0x17: return "LSS store";
-    case 0x4C: return "LSS identify: who has no node-ID?";
+    case 0x4C: return "LSS identify nodes without node-ID";
     case fastscan: return scan(frame);
     case 0x5E: return "LSS inquire node-ID";
     default: return text("LSS unknown command %02Xh", command);
@@ -93,9 +93,9 @@ std::string answer(const CO_IF_FRM& frame) {
     case 0x11: return result("configure node-ID", frame);
     case 0x13: return result("configure bit timing", frame);
     case 0x17: return result("store", frame);
-    case 0x44: return "LSS answer: in configuration";
-    case identified: return "LSS answer: that is me";
-    case 0x50: return "LSS answer: I have no node-ID";
+    case 0x44: return "LSS answer: switched to configuration";
+    case identified: return "LSS answer: identified";
+    case 0x50: return "LSS answer: node without node-ID";
     case 0x5E: return "LSS answer: " + node_id(frame);
     default: return text("LSS answer: unknown command %02Xh", command);
   }

@@ -30,7 +30,7 @@ constexpr Row rows[] = {
     {0x8220, 0xFFFF, "PDO too long"},
     {0x8240, 0xFFFF, "unexpected length of SYNC"},
     {0x8250, 0xFFFF, "RPDO missing"},
-    {0x0000, 0xFF00, "no error any more"},
+    {0x0000, 0xFF00, "error reset"},
     {0x1000, 0xFF00, "generic error"},
     {0x2000, 0xF000, "current"},
     {0x3000, 0xF000, "voltage"},

@@ -71,11 +71,11 @@ static OD_t Od;
 static pthread_mutex_t Mutex;
 static CO_NODE_EXT Ext;
 static DEVICE_REPORT Report;
-static atomic_bool Stops;
+static atomic_bool StopRequested;
 static pthread_t RealTimeThread;
 static pthread_t MainlineThread;
 
-#ifdef WITHOUT_TURNS  // no node lock: for the test that the thread sanitizer reports the data races
+#ifdef WITHOUT_NODE_LOCK  // no node lock: for the test that the thread sanitizer reports the data races
 static void Enter(void* user) { CO_UNUSED(user); }
 static void Leave(void* user) { CO_UNUSED(user); }
 #else
@@ -84,13 +84,13 @@ static void Leave(void* user) { (void)pthread_mutex_unlock((pthread_mutex_t*)use
 #endif
 
 // Called in the real-time thread, which holds the node lock.
-void DeviceUpdate(void) { ++Report.Received; }
+void DeviceCountPdo(void) { ++Report.Received; }
 bool IsDevice(const CO_NODE* node) { return node == &Node; }
 
 // Control task of the device. The SDO server in the other thread accesses the same objects.
-static void Control(void) {
+static void UpdateOutputs(void) {
   CO_LOCK_OD(&Node);
-  Report.Torn += Input[1] == ~Input[0] ? 0 : 1;
+  Report.MismatchedPairs += Input[1] == ~Input[0] ? 0 : 1;
   Output[0] = Input[0] + 1;
   Output[1] = ~Output[0];
   CO_UNLOCK_OD(&Node);
@@ -110,12 +110,12 @@ static void* RealTime(void* unused) {
   struct timespec next;
   (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
   (void)clock_gettime(CLOCK_MONOTONIC, &next);
-  while (!atomic_load(&Stops)) {
+  while (!atomic_load(&StopRequested)) {
     const uint32_t start = ClockMicroseconds();
     CONodeRealTime(&Node);
-    Control();
-    const uint32_t took = ClockMicroseconds() - start;
-    Report.LongestCycle = took > Report.LongestCycle ? took : Report.LongestCycle;
+    UpdateOutputs();
+    const uint32_t duration = ClockMicroseconds() - start;
+    Report.LongestCycle = duration > Report.LongestCycle ? duration : Report.LongestCycle;
     ++Report.Cycles;
     AddCycle(&next);
     (void)clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, NULL);
@@ -124,7 +124,7 @@ static void* RealTime(void* unused) {
 }
 
 // Raises an error for an alarm that the network has written, and sends it back by an event-driven TPDO.
-static void Watch(void) {
+static void ReportAlarm(void) {
   static uint8_t seen;
   uint8_t alarm = 0;
   OD_entry_t* const entry = OD_find(&Od, 0x2102);
@@ -150,12 +150,12 @@ static void Watch(void) {
 // Polls every millisecond, because frames that the real-time thread has put into the ring do not end its sleep. Frames
 // that arrive meanwhile are processed in the next round, so that they do not delay the timers.
 static void* Mainline(void* unused) {
-  while (!atomic_load(&Stops)) {
+  while (!atomic_load(&StopRequested)) {
     for (unsigned calls = CORingCount(&Ring) + 1u; calls != 0; --calls) {
       CONodeProcess(&Node);
     }
     COTmrProcess(&Node.Tmr);
-    Watch();
+    ReportAlarm();
     ClockWait(1000);
   }
   return unused;
@@ -199,7 +199,7 @@ CO_ERR DeviceStart(void* controller) {
 }
 
 DEVICE_REPORT DeviceStop(void) {
-  atomic_store(&Stops, true);
+  atomic_store(&StopRequested, true);
   (void)pthread_join(RealTimeThread, NULL);
   (void)pthread_join(MainlineThread, NULL);
   const CO_NODE_COUNTERS counters = CONodeGetCounters(&Node);

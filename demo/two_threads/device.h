@@ -12,11 +12,11 @@
 // Dictionary: 2000h:1, :2 received, 2001h:1, :2 transmitted, 2100h a limit, 2101h a profile, 2102h an alarm.
 
 typedef struct DEVICE_REPORT_T {
-  uint32_t Cycles;        // cycles of the real-time thread
-  uint32_t Received;      // RPDOs that were written to the dictionary
-  uint32_t Torn;          // pairs of values that were read inconsistently
-  uint32_t Lost;          // frames that the node dropped, and overruns of the controller
-  uint32_t LongestCycle;  // execution time of the real-time thread in µs, including waiting for the lock
+  uint32_t Cycles;           // cycles of the real-time thread
+  uint32_t Received;         // RPDOs that were written to the dictionary
+  uint32_t MismatchedPairs;  // pairs of values that were read inconsistently
+  uint32_t Lost;             // frames that the node dropped, and overruns of the controller
+  uint32_t LongestCycle;     // execution time of the real-time thread in µs, including waiting for the lock
 } DEVICE_REPORT;
 
 // Starts the node and its threads. Prints the error of the node, if there is one, and returns it.
@@ -28,7 +28,7 @@ DEVICE_REPORT DeviceStop(void);
 uint32_t DeviceStoredLimit(void);
 
 // Counts a received RPDO; for COPdoUpdate().
-void DeviceUpdate(void);
+void DeviceCountPdo(void);
 // Returns true for the device's node, false for the partner's.
 bool IsDevice(const CO_NODE* node);
 

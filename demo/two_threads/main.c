@@ -11,7 +11,7 @@
 #define ROUNDS 20u
 #define PDOS 200u
 #define ANSWERS 50u
-#define PATIENCE 60000000u  // time limit of each wait, µs
+#define TIME_LIMIT 60000000u  // time limit of each wait, µs
 
 static unsigned Failures;
 
@@ -25,9 +25,9 @@ static void Check(bool good, const char* what) {
 // Callbacks of both nodes.
 void COPdoUpdate(CO_RPDO* pdo) {
   if (IsDevice(pdo->Node)) {
-    DeviceUpdate();
+    DeviceCountPdo();
   } else {
-    PartnerUpdate(pdo);
+    PartnerProcessPdo(pdo);
   }
 }
 
@@ -36,14 +36,14 @@ void COEmcyReceived(CO_NODE* node, uint8_t nodeId, uint16_t code, uint8_t reg, c
   CO_UNUSED(code);
   CO_UNUSED(reg);
   CO_UNUSED(msef);
-  PartnerHearError(nodeId);
+  PartnerCountError(nodeId);
 }
 
 // Waits until a counter of the partner has reached a number.
-static bool Reaches(const uint32_t* counter, uint32_t number) {
+static bool AwaitCount(const uint32_t* counter, uint32_t number) {
   const uint32_t start = ClockMicroseconds();
-  while (*counter < number && ClockMicroseconds() - start < PATIENCE) {
-    PartnerTurn();
+  while (*counter < number && ClockMicroseconds() - start < TIME_LIMIT) {
+    PartnerProcess();
   }
   return *counter >= number;
 }
@@ -56,15 +56,15 @@ static void WriteParameters(uint32_t round) {
   Check(PartnerWrite(CO_DEV(0x2100, 0), &round, sizeof(round)), "a number is written");
   Check(PartnerWrite(CO_DEV(0x2101, 0), profile, PROFILE_SIZE), "600 bytes are written");
   Check(PartnerWrite(CO_DEV(0x1010, 1), "save", 4), "the parameters are stored");
-  Check(PartnerFinds(CO_DEV(0x2100, 0), &round, sizeof(round)), "the number is read back");
-  Check(PartnerFinds(CO_DEV(0x2101, 0), profile, PROFILE_SIZE), "600 bytes are read back");
+  Check(PartnerVerify(CO_DEV(0x2100, 0), &round, sizeof(round)), "the number is read back");
+  Check(PartnerVerify(CO_DEV(0x2101, 0), profile, PROFILE_SIZE), "600 bytes are read back");
 }
 
-static void GiveAlarm(uint32_t round, uint8_t alarm) {
+static void WriteAlarm(uint32_t round, uint8_t alarm) {
   const uint32_t number = 2 * round - alarm;  // expected number of raised and resolved alarms so far
   Check(PartnerWrite(CO_DEV(0x2102, 0), &alarm, 1), "the alarm is written");
-  Check(Reaches(&Partner.Errors, number), "an EMCY message reports it");
-  Check(Reaches(&Partner.Events, number), "an event-driven PDO reports it");
+  Check(AwaitCount(&Partner.Errors, number), "an EMCY message reports it");
+  Check(AwaitCount(&Partner.Events, number), "an event-driven PDO reports it");
 }
 
 int main(void) {
@@ -73,18 +73,18 @@ int main(void) {
   PartnerStartNetwork();
   for (uint32_t round = 1; round <= ROUNDS && Failures == 0; ++round) {
     WriteParameters(round);
-    GiveAlarm(round, 1);
-    GiveAlarm(round, 0);
+    WriteAlarm(round, 1);
+    WriteAlarm(round, 0);
   }
-  Check(Reaches(&Partner.Pdos, PDOS), "a PDO follows each SYNC");
-  Check(Reaches(&Partner.Answers, ANSWERS), "the device answers the partner's PDOs");
+  Check(AwaitCount(&Partner.Pdos, PDOS), "a PDO follows each SYNC");
+  Check(AwaitCount(&Partner.Answers, ANSWERS), "the device answers the partner's PDOs");
   const DEVICE_REPORT device = DeviceStop();
   PartnerStop();
-  Check(device.Torn == 0 && Partner.Torn == 0, "the two values of each pair match");
+  Check(device.MismatchedPairs == 0 && Partner.MismatchedPairs == 0, "the two values of each pair match");
   Check(device.Lost == 0, "no frame is lost");
   Check(DeviceStoredLimit() == ROUNDS, "the last stored value is loaded at the next start");
   printf("%u cycles of 1 ms, the longest %u us; PDOs %u and %u, EMCY %u, stored %u times: %s\n",
          (unsigned)device.Cycles, (unsigned)device.LongestCycle, (unsigned)Partner.Pdos, (unsigned)device.Received,
-         (unsigned)Partner.Errors, (unsigned)ROUNDS, Failures == 0 ? "all right" : "FAILED");
+         (unsigned)Partner.Errors, (unsigned)ROUNDS, Failures == 0 ? "passed" : "FAILED");
   return Failures == 0 ? 0 : 1;
 }

@@ -52,7 +52,7 @@ static CO_OBJ Objects[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (C
 
 static CO_NODE Node;
 static CO_NODE_EXT Ext;
-static bool IsOver;
+static bool TransferEnded;
 static uint32_t AbortCode;
 
 CO_ERR PartnerStart(void* controller) {
@@ -69,7 +69,7 @@ CO_ERR PartnerStart(void* controller) {
 
 void PartnerStop(void) { CONodeStop(&Node); }
 
-void PartnerTurn(void) {
+void PartnerProcess(void) {
   for (unsigned frames = 0; frames < 256; ++frames) {
     CONodeProcess(&Node);
   }
@@ -80,44 +80,44 @@ void PartnerTurn(void) {
 
 void PartnerStartNetwork(void) { (void)CONmtCommand(&Node.Nmt, CO_NMT_COMMAND_START, 0); }
 
-static void End(CO_CSDO* client, uint16_t index, uint8_t sub, uint32_t code) {
+static void NoteEnd(CO_CSDO* client, uint16_t index, uint8_t sub, uint32_t code) {
   CO_UNUSED(client);
   CO_UNUSED(index);
   CO_UNUSED(sub);
-  IsOver = true;
+  TransferEnded = true;
   AbortCode = code;
 }
 
-static bool Succeeds(CO_ERR started) {
-  while (started == CO_ERR_NONE && !IsOver) {
-    PartnerTurn();
+static bool AwaitTransfer(CO_ERR started) {
+  while (started == CO_ERR_NONE && !TransferEnded) {
+    PartnerProcess();
   }
   return started == CO_ERR_NONE && AbortCode == 0;
 }
 
 bool PartnerWrite(uint32_t key, const void* data, uint32_t size) {
-  IsOver = false;
-  return Succeeds(COCSdoRequestDownload(COCSdoFind(&Node, 0), key, (uint8_t*)data, size, End, TIME_OUT));
+  TransferEnded = false;
+  return AwaitTransfer(COCSdoRequestDownload(COCSdoFind(&Node, 0), key, (uint8_t*)data, size, NoteEnd, TIME_OUT));
 }
 
-bool PartnerFinds(uint32_t key, const void* data, uint32_t size) {
+bool PartnerVerify(uint32_t key, const void* data, uint32_t size) {
   static uint8_t buffer[1024];
   CO_CSDO* const client = COCSdoFind(&Node, 0);
-  IsOver = false;
-  return Succeeds(COCSdoRequestUpload(client, key, buffer, sizeof(buffer), End, TIME_OUT)) &&
+  TransferEnded = false;
+  return AwaitTransfer(COCSdoRequestUpload(client, key, buffer, sizeof(buffer), NoteEnd, TIME_OUT)) &&
          COCSdoGetNum(client) == size && memcmp(buffer, data, size) == 0;
 }
 
-void PartnerUpdate(const CO_RPDO* pdo) {
+void PartnerProcessPdo(const CO_RPDO* pdo) {
   if (pdo == &Node.RPdo[1]) {
     ++Partner.Events;
     return;
   }
   ++Partner.Pdos;
-  Partner.Torn += Input[1] == ~Input[0] ? 0 : 1;
+  Partner.MismatchedPairs += Input[1] == ~Input[0] ? 0 : 1;
   Partner.Answers += Input[0] == Output[0] + 1u ? 1 : 0;
   Output[0] = Input[0] * 3u;
   Output[1] = ~Output[0];
 }
 
-void PartnerHearError(uint8_t node_id) { Partner.Errors += node_id == DEVICE_ID ? 1 : 0; }
+void PartnerCountError(uint8_t node_id) { Partner.Errors += node_id == DEVICE_ID ? 1 : 0; }

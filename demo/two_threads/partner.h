@@ -9,11 +9,11 @@
 // Numbers of messages from the device. Each PDO contains a value and its complement; the device answers each value of
 // the partner with the value + 1.
 typedef struct PARTNER_REPORT_T {
-  uint32_t Pdos;     // synchronous PDOs
-  uint32_t Answers;  // synchronous PDOs that answer the partner's last value
-  uint32_t Events;   // event-driven PDOs
-  uint32_t Torn;     // synchronous PDOs whose two values do not match
-  uint32_t Errors;   // EMCY messages, of raised and resolved errors
+  uint32_t Pdos;             // synchronous PDOs
+  uint32_t Answers;          // synchronous PDOs that answer the partner's last value
+  uint32_t Events;           // event-driven PDOs
+  uint32_t MismatchedPairs;  // synchronous PDOs whose two values do not match
+  uint32_t Errors;           // EMCY messages, of raised and resolved errors
 } PARTNER_REPORT;
 
 extern PARTNER_REPORT Partner;
@@ -23,7 +23,7 @@ CO_ERR PartnerStart(void* controller);
 void PartnerStop(void);
 
 // Processes the node for a short time.
-void PartnerTurn(void);
+void PartnerProcess(void);
 
 // Starts all nodes (NMT).
 void PartnerStartNetwork(void);
@@ -31,10 +31,10 @@ void PartnerStartNetwork(void);
 // Writes an object of the device by SDO. Returns false if the transfer is aborted.
 bool PartnerWrite(uint32_t key, const void* data, uint32_t size);
 // Reads an object of the device by SDO. Returns false if the transfer is aborted, or if the object has other content.
-bool PartnerFinds(uint32_t key, const void* data, uint32_t size);
+bool PartnerVerify(uint32_t key, const void* data, uint32_t size);
 
 // Process messages of the device; for COPdoUpdate() and COEmcyReceived().
-void PartnerUpdate(const CO_RPDO* pdo);
-void PartnerHearError(uint8_t node_id);
+void PartnerProcessPdo(const CO_RPDO* pdo);
+void PartnerCountError(uint8_t node_id);
 
 #endif

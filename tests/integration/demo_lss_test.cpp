@@ -214,7 +214,7 @@ TEST_CASE("demo lss: a node is inquired and configured by its address") {
   CHECK(desk.was_sent("7E5#1700000000000000"));
 }
 
-TEST_CASE("demo lss: a failure is printed with status 1, and all nodes are switched back to waiting") {
+TEST_CASE("demo lss: a failure is printed with status 1 after all nodes are switched back to waiting") {
   Desk desk;
   CHECK(desk.run(LssAction::inquire, "", {"1", "2", "3", "4"}) == 1);
   CHECK(desk.err.str() == "LSS: no answer; is there such a node on this bus, with power, and at this bit rate?\n");
@@ -289,7 +289,7 @@ TEST_CASE("demo lss: a node with another identity than the found one is not conf
     CHECK(desk.run(action, "5") == 1);
     CHECK(desk.out.str() == "");
     CHECK(desk.err.str() ==
-          "LSS: the node at 0x00000001 0x00000002 0x00000003 0x00000004 names another number: 0x00000005\n");
+          "LSS: the node at 0x00000001 0x00000002 0x00000003 0x00000004 reports another number: 0x00000005\n");
     CHECK_FALSE(desk.was_sent("7E5#1105000000000000"));
   }
 }

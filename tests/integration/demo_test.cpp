@@ -97,8 +97,8 @@ bool same(const TimeOfDay& time, unsigned hour, unsigned minute, unsigned second
 
 TEST_CASE("demo: all steps of the tour succeed, and its trace is readable") {
   Bench bench;
-  const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
-  demo::summarise(result, bench.clock.node().counters(), bench.view);
+  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
+  demo::print_summary(result, bench.clock.node().counters(), bench.view);
   INFO(bench.trace());
   CHECK(result.steps == tour_steps);
   CHECK(result.failed.empty());
@@ -123,7 +123,7 @@ TEST_CASE("demo: all steps of the tour succeed, and its trace is readable") {
   CHECK(bench.shows("185  0C 23 00                 TPDO1 hour = 12, minute = 35, second = 0"));
   CHECK(bench.shows("205  0C 00 00                 RPDO1 hour = 12, minute = 0, second = 0"));
   CHECK(bench.shows("085  00 63 81 01 18 00 00 00  EMCY 6300h data set, error register 81h"));
-  CHECK(bench.shows("ok  EMCY 6300h, and 0000h when the time is right again"));
+  CHECK(bench.shows("ok  EMCY 6300h, and 0000h after a valid time"));
   CHECK(bench.shows("node    080                           SYNC"));
   CHECK(bench.shows("ok  3 of 3 SYNC messages, each followed by TPDO1"));
   CHECK(bench.shows((number_of_steps() + " of " + number_of_steps() + " steps in 7.0 s, all as expected").c_str()));
@@ -132,16 +132,16 @@ TEST_CASE("demo: all steps of the tour succeed, and its trace is readable") {
 #if USE_LSS && USE_LSS_MASTER && USE_PARA
 TEST_CASE("demo: in the tour a clock without node-ID is found, configured, and keeps its node-ID over power loss") {
   Bench bench(demo::no_node_id);
-  const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
+  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
   INFO(bench.trace());
   CHECK(result.steps == tour_steps + 1);
   CHECK(result.failed.empty());
-  CHECK(bench.shows("7E5  51 00 00 00 00 80 00 00  LSS fastscan: who has no node-ID?"));
-  CHECK(bench.shows("7E4  4F 00 00 00 00 00 00 00  LSS answer: that is me"));
+  CHECK(bench.shows("7E5  51 00 00 00 00 80 00 00  LSS fastscan start: all nodes without node-ID"));
+  CHECK(bench.shows("7E4  4F 00 00 00 00 00 00 00  LSS answer: identified"));
   CHECK(bench.shows("ok  found: vendor-ID 00000000h, product code 0000C10Ch, revision"));
   CHECK(bench.shows("7E5  11 05 00 00 00 00 00 00  LSS configure node-ID 5"));
   CHECK(bench.shows("7E5  17 00 00 00 00 00 00 00  LSS store"));
-  CHECK(bench.shows("ok  node 5 is there"));
+  CHECK(bench.shows("ok  node 5 has booted"));
   CHECK(bench.shows("ok  node-ID 5, \"Central Station\", time zone 60 min: all as stored"));
 }
 
@@ -281,7 +281,7 @@ TEST_CASE("demo: serial numbers of different storage files differ and are kept")
 
 TEST_CASE("demo: no line of the trace is longer than 120 characters, and long transfers are folded") {
   Bench bench;
-  demo::take_tour(bench.clock, bench.master, bench.view);
+  demo::run_tour(bench.clock, bench.master, bench.view);
   std::istringstream lines(bench.trace());
   std::size_t longest = 0;
   std::size_t count = 0;
@@ -290,7 +290,7 @@ TEST_CASE("demo: no line of the trace is longer than 120 characters, and long tr
   }
   CHECK(longest <= 120);
   CHECK(count < 250);
-  CHECK(bench.shows("more frames like these"));
+  CHECK(bench.shows("more frames of this transfer"));
 }
 
 TEST_CASE("demo: a step that fails is reported, and the tour continues") {
@@ -299,20 +299,20 @@ TEST_CASE("demo: a step that fails is reported, and the tour continues") {
     return traffic.frame.Identifier == 0x585 && traffic.frame.Data[0] == 0x07;
   };
   bench.host.bus.add_rule({VirtualBus::Fault::drop, is_last_name_segment});
-  const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
+  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
   INFO(bench.trace());
   CHECK(result.steps == tour_steps);
   REQUIRE(result.failed.size() == 1);
-  CHECK(result.failed[0] == "Its name has more than 4 bytes: segmented SDO");
+  CHECK(result.failed[0] == "Read the device name, more than 4 bytes: segmented upload");
   CHECK(bench.shows("FAILED  the device name: no answer"));
-  demo::summarise(result, bench.clock.node().counters(), bench.view);
+  demo::print_summary(result, bench.clock.node().counters(), bench.view);
   CHECK(bench.shows(", 1 not as expected"));
 }
 
 TEST_CASE("demo: any lost frame fails one step and those that depend on it") {
-  const std::vector<std::string> needed = {"Give the station a name: segmented download",
-                                           "Set its time zone, and save both",
-                                           "A picture for the clock: block download"};
+  const std::vector<std::string> needed = {"Write the station name: segmented download",
+                                           "Write the time zone; save time zone and station name",
+                                           "Write a picture: block download"};
   for (std::uint32_t number = 1;; number += every_frame) {
     CAPTURE(number);
     Bench bench;
@@ -321,7 +321,7 @@ TEST_CASE("demo: any lost frame fails one step and those that depend on it") {
       return decoder.decode(traffic.frame).place != demo::trace::Place::middle;
     };
     const std::size_t rule = bench.host.bus.add_rule({VirtualBus::Fault::drop, is_no_segment, number});
-    const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
+    const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
     if (bench.host.bus.struck(rule) == 0) {
       CHECK(number > 100);
       break;
@@ -343,7 +343,7 @@ TEST_CASE("demo: the picture is transferred in both directions although segments
   };
   const std::size_t down = bench.host.bus.add_rule({VirtualBus::Fault::drop, segment_85_of(0x605), 1, 5});
   const std::size_t up = bench.host.bus.add_rule({VirtualBus::Fault::drop, segment_85_of(0x585), 1, 5});
-  const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
+  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
   INFO(bench.trace());
   CHECK(bench.host.bus.struck(down) == 5);
   CHECK(bench.host.bus.struck(up) == 5);
@@ -365,15 +365,15 @@ TEST_CASE("demo: a picture that is read back with other bytes is detected") {
       spoilt = true;
     }
   });
-  const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
+  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
   REQUIRE(result.failed.size() == 1);
-  CHECK(result.failed[0] == "And back, every byte compared: block upload");
+  CHECK(result.failed[0] == "Read the picture and compare every byte: block upload");
   CHECK(bench.shows("FAILED  73728 bytes read, NOT as written"));
 }
 
 TEST_CASE("demo: the progress of a long transfer is shown in a few lines") {
   Bench bench;
-  demo::take_tour(bench.clock, bench.master, bench.view);
+  demo::run_tour(bench.clock, bench.master, bench.view);
 #if USE_SDO_BLOCK  // progress counts whole sub-blocks
   CHECK(bench.shows("]  25 %  18669 of 73728 bytes"));
 #endif
@@ -383,8 +383,8 @@ TEST_CASE("demo: the progress of a long transfer is shown in a few lines") {
 TEST_CASE("demo: an interrupt ends the tour") {
   Bench bench;
   bench.host.interrupted_at = 100 * demo::millisecond;  // before the first heartbeat
-  const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
-  demo::summarise(result, bench.clock.node().counters(), bench.view);
+  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
+  demo::print_summary(result, bench.clock.node().counters(), bench.view);
   CHECK(result.interrupted);
   CHECK(result.steps == 10 + storage_steps);
   CHECK(result.failed.empty());
@@ -570,7 +570,7 @@ TEST_CASE("demo: a clock whose frames are refused retries after 1 ms, after an e
 TEST_CASE("demo: the view folds the middle of a long transfer and prints the number of omitted frames") {
   const std::vector<std::string> shown = shown_of(10);
   REQUIRE(shown.size() == 6);
-  CHECK(shown[4] == "      ...  6 more frames like these");
+  CHECK(shown[4] == "      ...  6 more frames of this transfer");
   CHECK(shown[5].find("last segment") != std::string::npos);
 }
 
@@ -595,7 +595,7 @@ TEST_CASE("demo: a heartbeat in the middle of a long transfer is shown, and the 
   const std::vector<std::string> shown = lines_of(out);
   REQUIRE(shown.size() == 7);
   CHECK(shown[4].find("heartbeat: operational") != std::string::npos);
-  CHECK(shown[5] == "      ...  16 more frames like these");
+  CHECK(shown[5] == "      ...  16 more frames of this transfer");
 }
 
 TEST_CASE("demo: a heartbeat in a short transfer is shown at its position") {

@@ -24,7 +24,7 @@ struct Elsewhere {
     CONvmRamClear(&ram);
     host.others = [this] { return is_there && live(); };
   }
-  int take_tour() { return demo::take_tour_with(5, host, {}, out); }
+  int run_tour() { return demo::run_clock_tour(5, host, {}, out); }
   /// Runs the clock for one step: it is called whenever the master waits, and advances the time when it has nothing to
   /// do.
   bool live() {
@@ -48,7 +48,7 @@ struct Elsewhere {
 TEST_CASE("demo: the master runs the tour with a clock elsewhere on the bus") {
   Elsewhere elsewhere;
   REQUIRE(elsewhere.clock.start());
-  CHECK(elsewhere.take_tour() == demo::exit_ok);
+  CHECK(elsewhere.run_tour() == demo::exit_ok);
   INFO(elsewhere.out.str());
   CHECK(elsewhere.shows("node    705  00                       boot-up"));
   CHECK(elsewhere.shows("master  605  40 08 10 00 00 00 00 00  SDO upload 1008h:00 device name"));
@@ -65,15 +65,15 @@ TEST_CASE("demo: the master resets a clock that booted before the master") {
   REQUIRE(elsewhere.clock.start());
   elsewhere.clock.node().process();
   elsewhere.host.pass(second / 2);
-  CHECK(elsewhere.take_tour() == demo::exit_ok);
+  CHECK(elsewhere.run_tour() == demo::exit_ok);
   CHECK(elsewhere.shows("master  000  81 05                    NMT reset node, node 5"));
 }
 
 TEST_CASE("demo: a tour without a clock fails and ends") {
   Elsewhere elsewhere;
   elsewhere.is_there = false;
-  CHECK(elsewhere.take_tour() == demo::exit_failed);
-  CHECK(elsewhere.shows("FAILED  node 5 does not boot"));
+  CHECK(elsewhere.run_tour() == demo::exit_failed);
+  CHECK(elsewhere.shows("FAILED  no boot-up message of node 5"));
   CHECK(elsewhere.shows("not as expected"));
 }
 
@@ -83,12 +83,12 @@ TEST_CASE("demo: a tour reports a lost bus and an interrupt") {
   lost.host.fault = "the adapter is gone";
   lost.host.lost = true;
   lost.host.interrupted_at = second / 2;
-  CHECK(lost.take_tour() == demo::exit_failed);
+  CHECK(lost.run_tour() == demo::exit_failed);
   CHECK(lost.shows("FAILED  the adapter is gone"));
 
   Elsewhere interrupted;
   REQUIRE(interrupted.clock.start());
   interrupted.host.interrupted_at = second / 2;
-  CHECK(interrupted.take_tour() == demo::exit_interrupted);
+  CHECK(interrupted.run_tour() == demo::exit_interrupted);
 }
 #endif

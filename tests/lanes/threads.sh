@@ -5,11 +5,11 @@ packages=("${build_packages[@]}" "${clang_packages[@]}")
 
 # Runs without address randomisation: the sanitizer's shadow memory needs fixed addresses, which newer kernels may use.
 lane() {
-  local targets=(lexican_thread_tests lexican-demo-two-threads lexican-demo-without-turns)
+  local targets=(lexican_thread_tests lexican-demo-two-threads lexican-demo-without-node-lock)
   build_tree threads -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang \
     -DCMAKE_CXX_COMPILER=clang++ -DLEXICAN_SANITIZE=thread || return
   run_doctest threads setarch -R "$build/threads/tests/lexican_thread_tests"
   local demo=$build/threads/demo/two_threads
   check "two threads use a node in turns" timeout 120 setarch -R "$demo/lexican-demo-two-threads"
-  check "the sanitizer finds races where turns are missing" finds_races "$demo/lexican-demo-without-turns"
+  check "the sanitizer finds races where turns are missing" finds_races "$demo/lexican-demo-without-node-lock"
 }

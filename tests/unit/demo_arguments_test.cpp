@@ -123,7 +123,7 @@ TEST_CASE("demo arguments: the master uses a node-ID that differs from the node"
   arguments.node = "127";
   CHECK(demo::prepare(arguments).request.own_id == 126);
   arguments.own_id = "127";
-  CHECK(fault_of(arguments) == "--own-id: the node to talk to has this node-ID");
+  CHECK(fault_of(arguments) == "--own-id: the remote node has this node-ID");
 }
 
 TEST_CASE("demo arguments: a value is converted according to its type") {
@@ -179,7 +179,7 @@ TEST_CASE("demo arguments: a number has a buffer too small for block transfer, o
 
 // --- nmt
 
-TEST_CASE("demo arguments: nmt: the five commands of CiA 301, for one node or all [301:7.2.8.2.1]") {
+TEST_CASE("demo arguments: nmt: the five commands of CiA 301 for one node or all [301:7.2.8.2.1]") {
   const auto specifier = [](const char* name) {
     const demo::NmtPrepared prepared = demo::prepare(demo::NmtArguments{name, "5", ""});
     CHECK(prepared.fault == "");
@@ -206,7 +206,7 @@ TEST_CASE("demo arguments: nmt: an unknown command and a missing or wrong node a
   CHECK(fault("start", "", "") == "nmt needs the node to command: --node 1...127, or --node all");
   CHECK(fault("start", "0", "") == "--node: '0' is no number in 1...127");
   CHECK(fault("start", "128", "") == "--node: '128' is no number in 1...127");
-  CHECK(fault("start", "5", "5") == "--own-id: the node to talk to has this node-ID");
+  CHECK(fault("start", "5", "5") == "--own-id: the remote node has this node-ID");
 }
 
 // --- lss

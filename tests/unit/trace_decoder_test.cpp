@@ -75,8 +75,8 @@ TEST_CASE("trace: a segmented transfer shows size, toggle bit and data [301 SDO 
   CHECK(meaning("601#0D41000000000000") == "SDO download last segment: \"A\"");
   CHECK(meaning("601#0D01000000000000") == "SDO download last segment, 1 byte");
   CHECK(meaning("601#0F00000000000000") == "SDO download last segment, 0 bytes");
-  CHECK(meaning("581#2000000000000000") == "SDO answer: segment taken, toggle 0");
-  CHECK(meaning("581#3000000000000000") == "SDO answer: segment taken, toggle 1");
+  CHECK(meaning("581#2000000000000000") == "SDO answer: segment confirmed, toggle 0");
+  CHECK(meaning("581#3000000000000000") == "SDO answer: segment confirmed, toggle 1");
   CHECK(meaning("581#410810000B000000") == "SDO answer: 1008h:00 device name, 11 bytes in segments");
   CHECK(meaning("601#6000000000000000") == "SDO upload next segment, toggle 0");
   CHECK(meaning("601#7000000000000000") == "SDO upload next segment, toggle 1");
@@ -130,7 +130,7 @@ TEST_CASE("trace: SYNC, TIME and EMCY messages are shown [301:7.2.5, 7.2.6, 7.2.
   CHECK(meaning("100#952CB3F2313D") == "TIME 12:34:56.789, day 15665");
   CHECK(meaning("081#0063810118000000") == "EMCY 6300h data set, error register 81h");
   CHECK(meaning("0FF#3081110000050000") == "EMCY 8130h heartbeat or life guarding missing, error register 11h");
-  CHECK(meaning("081#0000000000000000") == "EMCY 0000h no error any more, error register 00h");
+  CHECK(meaning("081#0000000000000000") == "EMCY 0000h error reset, error register 00h");
   CHECK(meaning("081#2331050000000000") == "EMCY 3123h voltage, error register 05h");
   CHECK(meaning("081#00A0010000000000") == "EMCY A000h unknown error code, error register 01h");
 }
@@ -140,7 +140,7 @@ TEST_CASE("trace: LSS: switch state, configure and store are shown [305]") {
   CHECK(meaning("7E5#0401000000000000") == "LSS switch all to configuration");
   CHECK(meaning("7E5#4019030000000000") == "LSS switch to configuration: vendor-ID 00000319h");
   CHECK(meaning("7E5#4301000080000000") == "LSS switch to configuration: serial number 80000001h");
-  CHECK(meaning("7E4#4400000000000000") == "LSS answer: in configuration");
+  CHECK(meaning("7E4#4400000000000000") == "LSS answer: switched to configuration");
   CHECK(meaning("7E5#1105000000000000") == "LSS configure node-ID 5");
   CHECK(meaning("7E5#11FF000000000000") == "LSS configure no node-ID");
   CHECK(meaning("7E4#1100000000000000") == "LSS answer: configure node-ID done");
@@ -164,18 +164,18 @@ TEST_CASE("trace: LSS: inquire and identify are shown [305]") {
   CHECK(meaning("7E5#4619030000000000") == "LSS identify: vendor-ID 00000319h");
   CHECK(meaning("7E5#4801000000000000") == "LSS identify: revision number from 00000001h");
   CHECK(meaning("7E5#4B09000000000000") == "LSS identify: serial number to 00000009h");
-  CHECK(meaning("7E5#4C00000000000000") == "LSS identify: who has no node-ID?");
-  CHECK(meaning("7E4#5000000000000000") == "LSS answer: I have no node-ID");
+  CHECK(meaning("7E5#4C00000000000000") == "LSS identify nodes without node-ID");
+  CHECK(meaning("7E4#5000000000000000") == "LSS answer: node without node-ID");
   CHECK(meaning("7E5#7700000000000000") == "LSS unknown command 77h");
   CHECK(meaning("7E4#7700000000000000") == "LSS answer: unknown command 77h");
   CHECK(meaning("7E5#04000000000000") == "unknown 7E5#04000000000000");
 }
 
 TEST_CASE("trace: LSS: the bits of a fastscan can be folded [305]") {
-  CHECK(meaning("7E5#5100000000800000") == "LSS fastscan: who has no node-ID?");
+  CHECK(meaning("7E5#5100000000800000") == "LSS fastscan start: all nodes without node-ID");
   CHECK(meaning("7E5#51000000801F0303") == "LSS fastscan serial number 80000000h, bits 31...31");
   CHECK(meaning("7E5#510CC10000000102") == "LSS fastscan product code 0000C10Ch, bits 31...0");
-  CHECK(meaning("7E4#4F00000000000000") == "LSS answer: that is me");
+  CHECK(meaning("7E4#4F00000000000000") == "LSS answer: identified");
   CHECK(place("7E5#5100000000800000") == Place::edge);
   CHECK(place("7E5#51000000801F0303") == Place::middle);
   CHECK(place("7E4#4F00000000000000") == Place::middle);
@@ -231,9 +231,9 @@ TEST_CASE("trace: a block download is shown from its begin to its end [301:7.2.4
   CHECK(bus.hears("581#A400220002000000") == "SDO answer: 2200h:00 picture block download, blksize 2, CRC");
   CHECK(bus.hears("601#0141424344454647") == "SDO download block segment 1: \"ABCDEFG\"");
   CHECK(bus.hears("601#0201020304050607") == "SDO download block segment 2, 7 bytes");
-  CHECK(bus.hears("581#A2027F0000000000") == "SDO answer: block segments taken up to 2, blksize 127");
+  CHECK(bus.hears("581#A2027F0000000000") == "SDO answer: block segments confirmed up to 2, blksize 127");
   CHECK(bus.hears("601#8148490000000000") == "SDO download last block segment 1, up to 7 bytes");
-  CHECK(bus.hears("581#A2017F0000000000") == "SDO answer: block segments taken up to 1, blksize 127");
+  CHECK(bus.hears("581#A2017F0000000000") == "SDO answer: block segments confirmed up to 1, blksize 127");
   CHECK(bus.hears("601#D5C3310000000000") == "SDO block download end, 2 bytes in the last segment, CRC 31C3h");
   CHECK(bus.hears("581#A100000000000000") == "SDO answer: block download done");
 }
@@ -245,9 +245,9 @@ TEST_CASE("trace: a block upload is shown from its begin to its end [301:7.2.4.3
   CHECK(bus.hears("601#A300000000000000") == "SDO block upload start");
   CHECK(bus.hears("581#0141424344454647") == "SDO answer: block segment 1: \"ABCDEFG\"");
   CHECK(bus.hears("581#0248494A4B4C4D4E") == "SDO answer: block segment 2: \"HIJKLMN\"");
-  CHECK(bus.hears("601#A2020A0000000000") == "SDO block segments taken up to 2, blksize 10");
+  CHECK(bus.hears("601#A2020A0000000000") == "SDO block segments confirmed up to 2, blksize 10");
   CHECK(bus.hears("581#8141000000000000") == "SDO answer: last block segment 1, up to 7 bytes");
-  CHECK(bus.hears("601#A2010A0000000000") == "SDO block segments taken up to 1, blksize 10");
+  CHECK(bus.hears("601#A2010A0000000000") == "SDO block segments confirmed up to 1, blksize 10");
   CHECK(bus.hears("581#D934120000000000") == "SDO answer: block upload end, 1 byte in the last segment, CRC 1234h");
   CHECK(bus.hears("601#A100000000000000") == "SDO block upload done");
 }
@@ -271,9 +271,9 @@ TEST_CASE("trace: within a sub-block the first byte is a sequence number, not a 
   CHECK(bus.hears("601#2300100000000000") == "SDO download block segment 35, 7 bytes");
   CHECK(bus.hears("601#4008100000000000") == "SDO download block segment 64, 7 bytes");
   CHECK(bus.hears("601#6000000000000000") == "SDO download block segment 96, 7 bytes");
-  CHECK(bus.hears("581#A260030000000000") == "SDO answer: block segments taken up to 96, blksize 3");
+  CHECK(bus.hears("581#A260030000000000") == "SDO answer: block segments confirmed up to 96, blksize 3");
   CHECK(bus.hears("601#C108100000000000") == "SDO download last block segment 65, up to 7 bytes");
-  CHECK(bus.hears("581#A241030000000000") == "SDO answer: block segments taken up to 65, blksize 3");
+  CHECK(bus.hears("581#A241030000000000") == "SDO answer: block segments confirmed up to 65, blksize 3");
   CHECK(bus.hears("601#C108100000000000") == "SDO block download end, 7 bytes in the last segment, CRC 1008h");
 }
 
@@ -295,10 +295,10 @@ TEST_CASE("trace: after lost segments a sub-block continues behind its acknowled
   bus.hears("601#A300000000000000");
   bus.hears("581#0101020304050607");
   bus.hears("581#8301020000000000");  // segment 2 was lost
-  CHECK(bus.hears("601#A2017F0000000000") == "SDO block segments taken up to 1, blksize 127");
+  CHECK(bus.hears("601#A2017F0000000000") == "SDO block segments confirmed up to 1, blksize 127");
   CHECK(bus.hears("581#0101020304050607") == "SDO answer: block segment 1, 7 bytes");
   CHECK(bus.hears("581#8201020000000000") == "SDO answer: last block segment 2, up to 7 bytes");
-  CHECK(bus.hears("601#A2027F0000000000") == "SDO block segments taken up to 2, blksize 127");
+  CHECK(bus.hears("601#A2027F0000000000") == "SDO block segments confirmed up to 2, blksize 127");
   CHECK(bus.hears("581#D500000000000000") == "SDO answer: block upload end, 2 bytes in the last segment, CRC 0000h");
 }
 
