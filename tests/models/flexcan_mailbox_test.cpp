@@ -392,6 +392,9 @@ TEST_CASE("flexcan mailbox: a locked mailbox receives when it is unlocked [Mailb
     CHECK(station.flags() == 0x100);
     CHECK(station.code(8) == Station::full);
     CHECK((station.word(8, 2) >> 24) == 3);
+    clear(0x100);
+    in(flexcan::timer);
+    CHECK(station.flags() == 0);
   }
 }
 
