@@ -6,6 +6,7 @@
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "service/lss/bit_rate.hpp"
 #include "wire/lss.hpp"
 
@@ -100,6 +101,7 @@ constexpr unsigned first(Lss command) { return static_cast<unsigned>(command); }
 
 [[nodiscard]] bool send_number(CO_LSSM& master) {
   const uint8_t n = master.Sent;
+  CO_ASSERT(n < master.Frames && master.Frames <= wire::lss_identify_parts);
   const bool is_last = n + 1 == master.Frames;
   CO_IF_FRM frame = wire::lss_frame(wire::lss_request, static_cast<uint8_t>(master.Request + n));
   wire::put_u32(frame.Data + 1, master.Number[n]);
@@ -200,6 +202,7 @@ void switch_own_bit_rate(CO_LSSM& master) {
 bool is_known(const CO_LSSM& master) { return master.Part < master.Known; }
 
 [[nodiscard]] bool scan(CO_LSSM& master, State then) {
+  CO_ASSERT(master.Part < wire::lss_address_parts && (master.Bit < 32 || master.Bit == wire::fastscan_begin));
   const unsigned next = then == State::confirmed ? (master.Part + 1U) % wire::lss_address_parts : master.Part;
   CO_IF_FRM frame = wire::lss_frame(wire::lss_request, static_cast<uint8_t>(Lss::fastscan));
   wire::put_fastscan(frame, {master.Address[master.Part], master.Bit, master.Part, static_cast<uint8_t>(next)});
@@ -216,6 +219,7 @@ void scan_part(CO_LSSM& master) {
 
 // Sets the bit that was scanned to 1 if no slave has responded that it is 0, and scans the next lower bit.
 void scan_next_bit(CO_LSSM& master) {
+  CO_ASSERT(master.Part < wire::lss_address_parts && master.Bit < 32);
   const bool is_last = master.Bit == 0;
   master.Address[master.Part] |= master.Heard != 0 ? 0 : uint32_t{1} << master.Bit;
   master.Bit = static_cast<uint8_t>(is_last ? 0 : master.Bit - 1);

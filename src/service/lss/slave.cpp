@@ -11,6 +11,7 @@
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "service/lss/bit_rate.hpp"
 #include "storage/budget.hpp"
@@ -326,6 +327,7 @@ void fastscan(CO_NODE& node, const CO_IF_FRM& request) {
   if (is_selected && !may_enter(node, request, State::configuration)) {
     return;
   }
+  CO_ASSERT(scan.part < wire::lss_address_parts && scan.next < wire::lss_address_parts);
   lss.Scanned = scan.bit == 0 ? scan.next : lss.Scanned;
   if (is_selected) {
     enter(node, State::configuration);

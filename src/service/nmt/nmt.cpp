@@ -6,6 +6,7 @@
 #include "base/gate.hpp"
 #include "base/routes.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "wire/nmt.hpp"
 
 namespace co::nmt {
@@ -64,7 +65,10 @@ void obey(CO_NODE& node, const CO_IF_FRM& frame) {
 
 }  // namespace
 
-uint8_t allowed_in(CO_MODE mode) { return permissions[mode]; }
+uint8_t allowed_in(CO_MODE mode) {
+  CO_ASSERT(mode < CO_MODE_NUM);
+  return permissions[mode];
+}
 
 void init(CO_NODE& node) { routes::add(node, static_cast<uint32_t>(wire::CobId::nmt), routes::Service::nmt, 0); }
 
