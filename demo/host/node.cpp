@@ -50,8 +50,8 @@ const CO_IF_CAN_DRV_EX Node::Tap::driver = {
       }
     },
     [](void* tap, CO_NODE* node, const CO_IF_FRM* frame) {
-      if (to(tap).driver->Report != nullptr) {
-        to(tap).driver->Report(to(tap).context, node, frame);
+      if (can_of(tap).driver->Report != nullptr) {
+        can_of(tap).driver->Report(can_of(tap).context, node, frame);
       }
     },
 };
