@@ -70,7 +70,7 @@ CO_ERR send_in_init(CO_OBJ*, CO_NODE* node) {
   return CO_ERR_NONE;
 }
 
-TEST_CASE("boot-up: a frame that an object type sends while a reset initialises it is held, too [N4]") {
+TEST_CASE("boot-up: a frame that an object type sends during its initialisation by a reset is also held [N4]") {
   const CO_OBJ_TYPE type = {nullptr, send_in_init, nullptr, nullptr, nullptr};
   for (const std::string reset : {"000#8101", "000#8201"}) {
     CAPTURE(reset);
@@ -135,7 +135,7 @@ TEST_CASE("boot-up: errors of the controller delay it but do not cancel it [N4] 
   CHECK(node.error() == CO_ERR_IF_CAN_SEND);
 }
 
-TEST_CASE("boot-up: the node is started again after a stop, with initialisation") {
+TEST_CASE("boot-up: the node is initialised and started again after a stop") {
   Fixture first;
   first.call([&] { CONodeStop(&first.node); });
   CHECK(first.mode() == CO_INVALID);

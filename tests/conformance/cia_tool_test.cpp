@@ -18,7 +18,7 @@ void prepare(Fixture& node) {
   node.silent();
 }
 
-TEST_CASE("CiA tool: SDO, expedited transfers [SDO 01] [SDO 02] [SDO 12] [SDO 13]") {
+TEST_CASE("CiA tool: expedited SDO transfers [SDO 01] [SDO 02] [SDO 12] [SDO 13]") {
   Fixture node;
   prepare(node);
   node.ask("601#4000100000000000", "581#4300100091010F00");
@@ -28,7 +28,7 @@ TEST_CASE("CiA tool: SDO, expedited transfers [SDO 01] [SDO 02] [SDO 12] [SDO 13
   node.ask("601#4000120200000000", "581#4300120281050000");
 }
 
-TEST_CASE("CiA tool: SDO, refused accesses [SDO 03]-[SDO 11]") {
+TEST_CASE("CiA tool: refused SDO accesses [SDO 03]-[SDO 11]") {
   Fixture node;
   prepare(node);
   node.ask("601#2300100000000000", "581#8000100002000106");
@@ -43,7 +43,7 @@ TEST_CASE("CiA tool: SDO, refused accesses [SDO 03]-[SDO 11]") {
   node.ask("601#2F202000FF000000", "581#8020200030000906");
 }
 
-TEST_CASE("CiA tool: SDO, segmented transfers [SDO 14]-[SDO 18]") {
+TEST_CASE("CiA tool: segmented SDO transfers [SDO 14]-[SDO 18]") {
   Fixture node;
   prepare(node);
   node.ask("601#2117100002000000", "581#6017100000000000");
@@ -58,7 +58,7 @@ TEST_CASE("CiA tool: SDO, segmented transfers [SDO 14]-[SDO 18]") {
 
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
 
-TEST_CASE("CiA tool: SDO, block upload of four bytes without CRC [SDO 19]") {
+TEST_CASE("CiA tool: SDO block upload of four bytes without CRC [SDO 19]") {
   Fixture node;
   prepare(node);
   node.ask("601#A000100014000000", "581#C600100004000000");
@@ -82,7 +82,7 @@ TEST_CASE(
 }
 
 // The string is "Lexican test node".
-TEST_CASE("CiA tool: SDO, block upload of a string without and with CRC [SDO 22] [SDO 23]") {
+TEST_CASE("CiA tool: SDO block upload of a string without and with CRC [SDO 22] [SDO 23]") {
   const std::string ends[] = {"581#D100000000000000", "581#D1C9780000000000"};
   for (const bool crc : {false, true}) {
     Fixture node;
@@ -96,7 +96,7 @@ TEST_CASE("CiA tool: SDO, block upload of a string without and with CRC [SDO 22]
   }
 }
 
-TEST_CASE("CiA tool: SDO, a block of 128 segments, and 128 segments acknowledged [SDO 26] [SDO 27]") {
+TEST_CASE("CiA tool: SDO blocks of 128 segments and an ackseq of 128 are aborted [SDO 26] [SDO 27]") {
   Fixture node;
   prepare(node);
   node.ask("601#A008100080000000", "581#8008100002000405");
@@ -108,7 +108,7 @@ TEST_CASE("CiA tool: SDO, a block of 128 segments, and 128 segments acknowledged
 
 #endif
 
-TEST_CASE("CiA tool: SDO, a device without block transfer aborts block requests [SDO 19]-[SDO 27]") {
+TEST_CASE("CiA tool: a device without SDO block transfer aborts block requests [SDO 19]-[SDO 27]") {
   Fixture node(USE_SDO_BLOCK != 0 ? Setup().without_sdo_buffer() : Setup());
   prepare(node);
   node.ask("601#A000100014000000", "581#8000100001000405");
@@ -120,7 +120,7 @@ TEST_CASE("CiA tool: SDO, a device without block transfer aborts block requests 
   node.ask("601#A208100080000000", "581#8008100001000405");
 }
 
-TEST_CASE("CiA tool: SDO, servers and clients that do not exist [SDO 28]-[SDO 30]") {
+TEST_CASE("CiA tool: SDO servers and clients that do not exist [SDO 28]-[SDO 30]") {
   Fixture node;
   prepare(node);
   node.ask("601#407F120100000000", "581#807F120100000206");

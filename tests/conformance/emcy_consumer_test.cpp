@@ -132,7 +132,7 @@ TEST_CASE("EMCY consumer: a message on a COB-ID of two entries is reported for b
   CHECK(node.heard() == Heard{"2 8110 11 0102030405", "3 8110 11 0102030405"});
 }
 
-TEST_CASE("EMCY consumer: after both resets it receives messages, with one route for each entry [T14]") {
+TEST_CASE("EMCY consumer: after both resets it receives messages and has one route for each entry [T14]") {
   Consumer node;
   for (const char* reset : {"000#8101", "000#8201", "000#8201"}) {
     node.rx(reset);

@@ -206,7 +206,7 @@ TEST_CASE("EMCY: null pointers call CONodeFatalError(); COEmcyGet and COEmcyCnt 
 
 // Missing objects, and objects of another type ------------------------------------------------------------------------
 
-TEST_CASE("EMCY: without 1001h the messages are right, and the node reports the missing object") {
+TEST_CASE("EMCY: without 1001h the messages are correct and the node reports the missing object") {
   EmcyNode node(Setup().emergencies(errors_of_device()).without(0x1001, 0));
   CHECK(node.error() == (USE_DICT_CHECK != 0 ? CO_ERR_CFG_1001_0 : CO_ERR_NONE));
   node.set(current);
@@ -292,7 +292,7 @@ TEST_CASE("EMCY: 1014h of type UNSIGNED32 sets CAN-ID, frame format and bit 31 [
   }
 }
 
-TEST_CASE("EMCY: all CO_EMCY_N errors of the application can be set, in any order [E3]") {
+TEST_CASE("EMCY: all CO_EMCY_N errors of the application can be set in any order [E3]") {
   std::vector<CO_EMCY_TBL> table;
   for (unsigned n = 0; n < CO_EMCY_N; ++n) {
     table.push_back({static_cast<std::uint8_t>(n % 6), static_cast<std::uint16_t>(0x1000 + n)});

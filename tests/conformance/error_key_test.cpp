@@ -141,8 +141,8 @@ TEST_CASE("error key: a heartbeat consumer entry for a node that another entry m
 // PDOs ---------------------------------------------------------------------------------------------------------------
 
 /// Returns the error of a node with these parameters of one RPDO or TPDO.
-std::string told_of(bool is_tpdo, unsigned number, const PdoEntries& entries,
-                    const std::function<void(Setup&)>& change = {}) {
+std::string error_of_pdo(bool is_tpdo, unsigned number, const PdoEntries& entries,
+                         const std::function<void(Setup&)>& change = {}) {
   PdoTable table;
   (is_tpdo ? table.tpdo : table.rpdo)[number] = entries;
   PdoNode node(table, change);
@@ -161,15 +161,15 @@ constexpr std::uint32_t byte = 0x22010108;
 
 TEST_CASE("error key: a wrong COB-ID or transmission type of a PDO is the key [M9]") {
   if (fixture_rpdos > 1) {
-    CHECK(told_of(false, 1, pdo(0x0, 255, {byte})) == "CO_ERR_RPDO_COM_OBJ 1401:1");
-    CHECK(told_of(false, 1, pdo(0x301, 241, {byte})) == "CO_ERR_RPDO_COM_OBJ 1401:2");
-    CHECK(told_of(false, 1, pdo(0x0, 241, {byte})) == "CO_ERR_RPDO_COM_OBJ 1401:1");
-    CHECK(told_of(false, 1, pdo(0x301, 255, {byte})) == no_error);
+    CHECK(error_of_pdo(false, 1, pdo(0x0, 255, {byte})) == "CO_ERR_RPDO_COM_OBJ 1401:1");
+    CHECK(error_of_pdo(false, 1, pdo(0x301, 241, {byte})) == "CO_ERR_RPDO_COM_OBJ 1401:2");
+    CHECK(error_of_pdo(false, 1, pdo(0x0, 241, {byte})) == "CO_ERR_RPDO_COM_OBJ 1401:1");
+    CHECK(error_of_pdo(false, 1, pdo(0x301, 255, {byte})) == no_error);
   }
   if (fixture_tpdos > 1) {
-    CHECK(told_of(true, 1, pdo(0x40000000, 255, {byte})) == "CO_ERR_TPDO_COM_OBJ 1801:1");
-    CHECK(told_of(true, 1, pdo(0x40000281, 251, {byte})) == "CO_ERR_TPDO_COM_OBJ 1801:2");
-    CHECK(told_of(true, 1, pdo(0x40000281, 255, {byte})) == no_error);
+    CHECK(error_of_pdo(true, 1, pdo(0x40000000, 255, {byte})) == "CO_ERR_TPDO_COM_OBJ 1801:1");
+    CHECK(error_of_pdo(true, 1, pdo(0x40000281, 251, {byte})) == "CO_ERR_TPDO_COM_OBJ 1801:2");
+    CHECK(error_of_pdo(true, 1, pdo(0x40000281, 255, {byte})) == no_error);
   }
 }
 
@@ -189,12 +189,12 @@ TEST_CASE("error key: a wrong mapping entry of a PDO is the key [M9]") {
   for (const auto& row : rows) {
     CAPTURE(row.sub);
     if (fixture_rpdos > 1) {
-      CHECK(told_of(false, 1, row.entries) == std::string("CO_ERR_RPDO_MAP_OBJ 1601:") + row.sub);
+      CHECK(error_of_pdo(false, 1, row.entries) == std::string("CO_ERR_RPDO_MAP_OBJ 1601:") + row.sub);
     }
     if (fixture_tpdos > 1) {
       PdoEntries tpdo = row.entries;
       tpdo.cob_id = 0x40000281;
-      CHECK(told_of(true, 1, tpdo) == std::string("CO_ERR_TPDO_MAP_OBJ 1A01:") + row.sub);
+      CHECK(error_of_pdo(true, 1, tpdo) == std::string("CO_ERR_TPDO_MAP_OBJ 1A01:") + row.sub);
     }
   }
 }
@@ -205,9 +205,9 @@ TEST_CASE("error key: sub-index 0 of a mapping is the key if the number is too l
   }
   PdoEntries tpdo = pdo(0x40000181, 255, {byte});
   tpdo.number = 65;
-  CHECK(told_of(true, 0, tpdo) == "CO_ERR_TPDO_MAP_OBJ 1A00:0");
+  CHECK(error_of_pdo(true, 0, tpdo) == "CO_ERR_TPDO_MAP_OBJ 1A00:0");
   const auto without_number = [](Setup& setup) { setup.without(0x1A00, 0); };
-  CHECK(told_of(true, 0, pdo(0x40000181, 255, {byte}), without_number) == "CO_ERR_TPDO_MAP_OBJ 1A00:0");
+  CHECK(error_of_pdo(true, 0, pdo(0x40000181, 255, {byte}), without_number) == "CO_ERR_TPDO_MAP_OBJ 1A00:0");
 }
 
 /// A variable of one byte whose accesses fail.

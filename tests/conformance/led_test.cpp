@@ -79,7 +79,7 @@ TEST_CASE("LED: ERR has a pattern for each error [LED1] [LED3]") {
   CHECK(patterns({CO_OPERATIONAL, CO_LED_CONFIG}) == Shown{on, red_blinking});
 }
 
-TEST_CASE("LED: the most serious of several errors is shown, in every combination [LED3]") {
+TEST_CASE("LED: the most serious of several errors is shown in every combination [LED3]") {
   const std::pair<unsigned, std::string> by_priority[] = {
       {CO_LED_BUS_OFF, on},          {CO_LED_LSS, red_flickering}, {CO_LED_PDO, red_quadruple},
       {CO_LED_SYNC, red_triple},     {CO_LED_CONTROL, red_double}, {CO_LED_WARNING, red_single},

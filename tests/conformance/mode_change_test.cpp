@@ -101,7 +101,7 @@ TEST_CASE("mode change: CONodeProcess within a change that an NMT command has ca
   node.tx(answer);
 }
 
-TEST_CASE("mode change: CONodeProcess within CONodeStop processes no frame, then or later") {
+TEST_CASE("mode change: CONodeProcess within CONodeStop processes no frame during the call or later") {
   Fixture node;
   const Nested nested(node);
   receive(node, request);

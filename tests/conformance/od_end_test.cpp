@@ -42,20 +42,20 @@ struct Node : Variables, Fixture {
 };
 
 // Logged calls of Begin (number) and of End.
-struct Told {
+struct TransferCalls {
   unsigned begins = 0;
   Log ends;
 };
 
-Told told(const Log& log) {
-  Told told;
+TransferCalls transfer_calls(const Log& log) {
+  TransferCalls calls;
   for (const std::string& line : log) {
-    told.begins += line.substr(0, 5) == "begin" ? 1U : 0U;
+    calls.begins += line.substr(0, 5) == "begin" ? 1U : 0U;
     if (line.substr(0, 3) == "end") {
-      told.ends.push_back(line);
+      calls.ends.push_back(line);
     }
   }
-  return told;
+  return calls;
 }
 
 // A segmented or block transfer that is not complete.
@@ -107,7 +107,7 @@ TEST_CASE(
       node.image.data = counting(20);
       CHECK(node.download(0x3000, 0, counting(20)) == 0);
       CHECK(node.upload(0x3000, 0) == counting(20));
-      const Told after = told(node.image.take_log());
+      const TransferCalls after = transfer_calls(node.image.take_log());
       CHECK(after.begins == 2);
       CHECK(after.ends == Log{"end down 0", "end up 0"});
     }
@@ -119,7 +119,7 @@ TEST_CASE("OD end: after the time-out of such a transfer End is not called again
   node.give(&node.extension.extension);
   node.ask("601#2100300014000000", "581#6000300000000000");
   node.give(nullptr);
-  CHECK(told(node.image.take_log()).ends == Log{"end down 08000022"});
+  CHECK(transfer_calls(node.image.take_log()).ends == Log{"end down 08000022"});
   node.after(std::chrono::milliseconds(2 * CO_SDO_TIMEOUT));
   node.frames();
   CHECK(node.image.take_log().empty());
@@ -180,7 +180,7 @@ TEST_CASE("OD end: an extension that replaces itself in any call causes one abor
         const unsigned aborts = run_frames(node, frames);
         node.rx("601#8000300000000008");
         node.frames();
-        const Told after = told(node.image.take_log());
+        const TransferCalls after = transfer_calls(node.image.take_log());
         CHECK(after.begins == 1);
         CHECK(after.ends.size() == 1);
         if (acted) {
@@ -220,7 +220,7 @@ TEST_CASE("OD end: the original type may replace the extension of the object in 
       run_frames(node, frames);
       node.rx("601#8000300000000008");
       node.frames();
-      const Told after = told(image.take_log());
+      const TransferCalls after = transfer_calls(image.take_log());
       CHECK(after.begins == 1);
       CHECK(after.ends.size() == 1);
       if (which < 4 && acted != 0) {
@@ -270,7 +270,7 @@ TEST_CASE("OD end: an access of an SDO client to its own node is aborted, and En
     }
     node.after(1ms);
     node.ended(0x08000022);
-    CHECK(told(variables.image.take_log()).ends == Log{uploads ? "end up 08000022" : "end down 08000022"});
+    CHECK(transfer_calls(variables.image.take_log()).ends == Log{uploads ? "end up 08000022" : "end down 08000022"});
     CHECK(variables.other.take_log().empty());
   }
 }

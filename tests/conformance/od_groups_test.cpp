@@ -213,11 +213,11 @@ TEST_CASE("OD groups: failures have a result: no such group, not stored on comma
   }
   CHECK(store(node, 5) == ODR_DATA_TRANSF);
   CHECK(restore(node, 5) == ODR_DATA_TRANSF);
-  device.nvm.deaf_from = 1;
-  device.nvm.deaf_to = 100000;
+  device.nvm.ignore_from = 1;
+  device.nvm.ignore_to = 100000;
   device.communication.number = 11;
   CHECK(store(node, 2) == ODR_HW);
-  device.nvm.deaf_to = 0;
+  device.nvm.ignore_to = 0;
 }
 
 TEST_CASE("OD groups: without an index, a name or an entry of the dictionary there is no group") {
@@ -260,8 +260,9 @@ TEST_CASE("OD groups: a dictionary that the node does not use is not stored") {
 TEST_CASE("OD groups: power off at every byte of OD_storeGroup and OD_restoreGroup gives old or new values") {
   std::uint64_t cuts = 0;
   for (const bool restores : {false, true}) {
-    for (const FailingNvm::Torn torn :
-         {FailingNvm::Torn::untouched, FailingNvm::Torn::half, FailingNvm::Torn::garbage, FailingNvm::Torn::done}) {
+    for (const FailingNvm::PartialWrite partial_write :
+         {FailingNvm::PartialWrite::untouched, FailingNvm::PartialWrite::half, FailingNvm::PartialWrite::garbage,
+          FailingNvm::PartialWrite::done}) {
       bool done = false;
       for (std::uint64_t step = 1; !done; ++step) {
         Device device;
@@ -272,7 +273,7 @@ TEST_CASE("OD groups: power off at every byte of OD_storeGroup and OD_restoreGro
           device.application = {22, "newer", {7, 7, 7, 7, 7}};
           device.nvm.steps = 0;
           device.nvm.cut_at = step;
-          device.nvm.torn = torn;
+          device.nvm.partial_write = partial_write;
           const ODR_t result = restores ? restore(node, 3) : store(node, 3);
           done = !device.nvm.is_off;
           REQUIRE((!done || result == ODR_OK));

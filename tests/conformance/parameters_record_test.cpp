@@ -260,13 +260,13 @@ TEST_CASE("parameters: a memory that fails while a record of version 0.1.0 is re
   for (std::uint64_t step = 1; step <= 2 * slot; ++step) {
     GroupDevice device;
     device.put(100, old_record);
-    device.nvm.deaf_from = step;
-    device.nvm.deaf_to = step + 1000;
+    device.nvm.ignore_from = step;
+    device.nvm.ignore_to = step + 1000;
     for (int n = 0; n < 2; ++n) {
       Fixture node(device.setup());
       CHECK(node.error() == CO_ERR_NONE);
       node.ask("601#4000230200000000", "581#430023022A000000");
-      device.nvm.deaf_to = 0;
+      device.nvm.ignore_to = 0;
     }
     CHECK(old_records(device) == 0);
   }

@@ -36,7 +36,7 @@ TEST_CASE("PDO callback: COPdoTransmit may trigger other TPDOs [Q9]") {
   CHECK(sent == std::vector<std::string>{"181#31", "281#41"});
 }
 
-TEST_CASE("PDO callback: COPdoTransmit may trigger the PDO that is being sent, without an endless loop [Q9]") {
+TEST_CASE("PDO callback: COPdoTransmit may trigger the PDO that is being sent without an endless loop [Q9]") {
   SyncTable table = asynchronous();
   table.tpdo[0].inhibit = 100;
   SyncNode node(table);

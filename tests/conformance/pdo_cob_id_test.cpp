@@ -88,7 +88,7 @@ TEST_CASE("PDO COB-ID: switching a PDO on or off in Operational takes effect at 
   }
 }
 
-TEST_CASE("PDO COB-ID: a PDO uses the CAN-ID with which it was switched on, and no other [P1]") {
+TEST_CASE("PDO COB-ID: a PDO uses only the CAN-ID with which it was enabled [P1]") {
   PdoNode node(both_off());
   node.start();
   CHECK(node.set(0x1400, 1, 4, 0x80000333) == 0);

@@ -184,7 +184,7 @@ TEST_CASE("SDO abort: the application's own code is used expedited and only for 
   node.ask("601#2300300000000000", "581#8000300020000008");
 }
 
-TEST_CASE("SDO abort: the application's own code without an error has no effect, then or later") {
+TEST_CASE("SDO abort: a code of the application without an error has no effect at any time") {
   Fixture node(scripted_setup());
   script.write_abort = 0x12345678;
   node.ask("601#2300300000000000", "581#6000300000000000");

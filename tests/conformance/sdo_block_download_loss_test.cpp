@@ -112,7 +112,7 @@ TEST_CASE("SDO block download: different segments are lost repeatedly [D11]") {
   node.finish(126, 1);
 }
 
-TEST_CASE("SDO block download: the last flag after a gap ends the sub-block, not the transfer [D22]") {
+TEST_CASE("SDO block download: the last flag after a gap ends only the sub-block [D22]") {
   Fixture node;
   node.ask("601#C600210F0F000000", "581#A400210F7F000000");
   node.rx("601#0101020304050607");
@@ -288,7 +288,7 @@ TEST_CASE("SDO block download: a lost acknowledge of no segment is repeated [D11
   node.finish(0, 127);
 }
 
-TEST_CASE("SDO block download: a lost last acknowledge is repeated, also if the end is lost [D11]") {
+TEST_CASE("SDO block download: a lost last acknowledge is repeated even if the end is lost [D11]") {
   Fixture node;
   node.ask("601#C204200004000000", "581#A40420007F000000");
   node.rx("601#8101020304000000");

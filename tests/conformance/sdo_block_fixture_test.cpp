@@ -85,8 +85,8 @@ TEST_CASE("fixture: bytes of the last segment that the end declares unused must 
   CHECK(channel.taken(frame("581#D900000000000000")) != "");
 }
 
-Changeable may_change(SdoObserver& channel) {
-  Changeable may;
+ChangeableEntries may_change(SdoObserver& channel) {
+  ChangeableEntries may;
   channel.take_changeable(may);
   return may;
 }
@@ -118,7 +118,7 @@ TEST_CASE("fixture: a block download that is aborted at its end may change nothi
   channel.taken(frame("581#A2017E0000000000"));
   channel.request(frame("601#CD00000000000000"));
   channel.taken(frame("581#8012345604000405"));
-  const Changeable may = may_change(channel);
+  const ChangeableEntries may = may_change(channel);
   CHECK(may.completed.empty());
   CHECK(may.streaming.empty());
 }

@@ -44,7 +44,7 @@ TEST_CASE("SDO block upload: with the first segment lost the whole block is repe
   node.finish(1);
 }
 
-TEST_CASE("SDO block upload: with a middle segment lost the rest is repeated, numbered from 1 [D12]") {
+TEST_CASE("SDO block upload: after the loss of a middle segment the others are repeated with numbers from 1 [D12]") {
   Upload node(127);
   node.rx(ack(50, 127));
   node.segments(50, 78);
@@ -146,7 +146,7 @@ TEST_CASE("SDO block upload: after a lost acknowledge the server waits for its r
   node.finish(1);
 }
 
-TEST_CASE("SDO block upload: a doubled acknowledge acknowledges the next block, too") {
+TEST_CASE("SDO block upload: a doubled acknowledge also acknowledges the next block") {
   Upload node(20);
   node.rx(ack(20, 20));
   node.segments(20, 20);

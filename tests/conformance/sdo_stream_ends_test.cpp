@@ -387,7 +387,7 @@ TEST_CASE("SDO stream types: an End that fails after an upload, or after an abor
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("SDO stream types: a custom abort code in End without an error has no effect, then or later") {
+TEST_CASE("SDO stream types: a custom abort code in End without an error has no effect at any time") {
   Stream node;
   node.on_end = only_set_code;
   node.ask("601#2B00300011220000", "581#6000300000000000");

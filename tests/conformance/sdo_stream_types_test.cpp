@@ -33,7 +33,7 @@ TEST_CASE("SDO stream types: an expedited upload calls Begin, Read and End") {
   CHECK(node.take_log() == Log{"begin up 3", "reset 0", "read 3", "end up 0"});
 }
 
-TEST_CASE("SDO stream types: a segmented download, its size announced or not") {
+TEST_CASE("SDO stream types: segmented downloads with and without announced size call Begin, Write and End") {
   Streams node;
   for (const bool sized : {true, false}) {
     node.ask(sized ? "601#2100300009000000" : "601#2000300000000000", "581#6000300000000000");

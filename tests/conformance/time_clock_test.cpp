@@ -80,7 +80,7 @@ TEST_CASE("clock: correct to the millisecond for a night with a punctual main lo
   }
 }
 
-TEST_CASE("clock: read before and after the timer runs, at every tick of three seconds") {
+TEST_CASE("clock: it can be read before and after the timer runs at every tick of three seconds") {
   for (const std::uint32_t rate : {300U, 1024U}) {
     Clock clock(rate, 0xFFFFFFFFU - rate);
     for (unsigned tick = 0; tick < 3 * rate; ++tick) {
@@ -107,7 +107,7 @@ TEST_CASE("clock: correct with the fastest timers") {
   }
 }
 
-TEST_CASE("clock: correct with a timer of 1 Hz, also 100 years late") {
+TEST_CASE("clock: it is correct with a timer of 1 Hz and 100 years late") {
   Clock clock(1, 0);
   clock.after(1000s);
   CHECK(clock.is_right());
@@ -115,7 +115,7 @@ TEST_CASE("clock: correct with a timer of 1 Hz, also 100 years late") {
   CHECK(clock.is_right());
 }
 
-TEST_CASE("clock: 0 until it is set, without a running timer") {
+TEST_CASE("clock: without a running timer it is 0 until it is set") {
   Fixture node(Setup().only_small());
   CO_TIME_OF_DAY now{1, 1};
   CHECK(COTimeGet(&node.node, &now) == CO_ERR_OBJ_NO_DATA);

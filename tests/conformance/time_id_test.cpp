@@ -75,7 +75,7 @@ TEST_CASE("TIME: 1012h of a stopped node can be written without another effect")
   CHECK(node.can.filter == filter);
 }
 
-TEST_CASE("TIME: a new COB-ID takes effect at once, also in the receive filter [N7]") {
+TEST_CASE("TIME: a new COB-ID takes effect at once in service and receive filter [N7]") {
   TimeNode node(0x00000100);
   const auto heard = [&](std::uint32_t id) {
     return std::count(node.can.filter.begin(), node.can.filter.end(), id) == 1;

@@ -221,7 +221,7 @@ Bytes walked_bytes() {
 
 }  // namespace
 
-TEST_CASE("machine walk: NMT, each command specifier in each state, to all, to this node and to another [N1] [N2]") {
+TEST_CASE("machine walk: each NMT command specifier in each state for all nodes, this and another node [N1] [N2]") {
   Bench bench(1);
   for (const State before : states) {
     for (unsigned specifier = 0; specifier < 256; ++specifier) {
@@ -235,7 +235,7 @@ TEST_CASE("machine walk: NMT, each command specifier in each state, to all, to t
   }
 }
 
-TEST_CASE("machine walk: NMT, commands of another length than 2 are ignored and counted in each state [N1]") {
+TEST_CASE("machine walk: NMT commands with a length other than 2 are ignored and counted in each state [N1]") {
   Bench bench(1);
   std::uint32_t wrong = 0;
   for (const State before : states) {
@@ -252,7 +252,7 @@ TEST_CASE("machine walk: NMT, commands of another length than 2 are ignored and 
   CHECK(bench.device.counters().Malformed == wrong);
 }
 
-TEST_CASE("machine walk: NMT, all 256 node-IDs address the right node only [N1]") {
+TEST_CASE("machine walk: NMT commands with each of 256 node-IDs reach the addressed node only [N1]") {
   Bench bench(1);
   for (unsigned node_id = 0; node_id < 256; ++node_id) {
     CAPTURE(node_id);
@@ -276,7 +276,7 @@ TEST_CASE("machine walk: a node in Initialisation processes no NMT command and n
   CHECK(line.take_texts() == Texts{"705#00"});
 }
 
-TEST_CASE("machine walk: SDO, each first byte in each state has its defined reaction and next state") {
+TEST_CASE("machine walk: SDO first bytes have their defined reaction and next state in each state") {
   for (std::size_t way = 0; way < ways.size(); ++way) {
     for (auto byte = static_cast<unsigned>(way % test::stride(3)); byte < 256; byte += test::stride(3)) {
       CAPTURE(way);
@@ -298,7 +298,7 @@ TEST_CASE("machine walk: SDO, each first byte in each state has its defined reac
   }
 }
 
-TEST_CASE("machine walk: SDO, all pairs of first bytes from idle [T7]") {
+TEST_CASE("machine walk: SDO first bytes in all pairs from idle [T7]") {
   Pair pair;
   for (unsigned first = 0; first < 256; ++first) {
     for (unsigned second = first % test::stride(5); second < 256; second += test::stride(5)) {
@@ -309,7 +309,7 @@ TEST_CASE("machine walk: SDO, all pairs of first bytes from idle [T7]") {
   }
 }
 
-TEST_CASE("machine walk: SDO, pairs of first bytes from every state, all of them in the large walk [T7]") {
+TEST_CASE("machine walk: SDO first bytes in pairs from every state (all pairs in the large walk) [T7]") {
   const Bytes bytes = walked_bytes();
   Pair pair;
   for (const Bytes& way : ways) {
@@ -322,7 +322,7 @@ TEST_CASE("machine walk: SDO, pairs of first bytes from every state, all of them
   }
 }
 
-TEST_CASE("machine walk: SDO, triples of first bytes from idle, all of them in the large walk [T7]") {
+TEST_CASE("machine walk: SDO first bytes in triples from idle (all triples in the large walk) [T7]") {
   const Bytes bytes = walked_bytes();
   Pair pair;
   for (const std::uint8_t first : bytes) {
@@ -334,7 +334,7 @@ TEST_CASE("machine walk: SDO, triples of first bytes from idle, all of them in t
   }
 }
 
-TEST_CASE("machine walk: SDO, a long random walk with silences that prefers transitions to other states [T7]") {
+TEST_CASE("machine walk: SDO requests in a long random walk with pauses that prefers changes of state [T7]") {
   Chance chance(301);
   Pair pair;
   const unsigned steps = is_large() ? 20000000 : 100000;
@@ -345,7 +345,7 @@ TEST_CASE("machine walk: SDO, a long random walk with silences that prefers tran
   }
 }
 
-TEST_CASE("machine walk: SDO, requests of another length than 8 change nothing in any state [D1]") {
+TEST_CASE("machine walk: SDO requests with a length other than 8 change nothing in any state [D1]") {
   for (const Bytes& way : ways) {
     for (const std::uint8_t dlc : Bytes{0, 1, 2, 3, 4, 5, 6, 7}) {
       Pair pair;
@@ -361,7 +361,7 @@ TEST_CASE("machine walk: SDO, requests of another length than 8 change nothing i
   }
 }
 
-TEST_CASE("machine walk: SDO across NMT, a transfer continues in Operational and ends with Stopped and reset [N8]") {
+TEST_CASE("machine walk: SDO transfers continue in Operational and end with Stopped and reset [N8]") {
   const char* const commands[] = {"000#0105", "000#8005", "000#0205", "000#8105", "000#8205", "000#0206", "000#8106"};
   for (const Bytes& way : ways) {
     for (const char* const command : commands) {

@@ -187,7 +187,7 @@ void check_stopped_node_breaks_the_ring(std::uint8_t nodes) {
 
 }  // namespace
 
-TEST_CASE("PDO network: an event is passed on by two and by sixteen nodes in no time, each PDO once") {
+TEST_CASE("PDO network: two and sixteen nodes forward an event without delay and send each PDO once") {
   check_event_goes_round(2);
   check_event_goes_round(16);
 }

@@ -139,7 +139,7 @@ TEST_CASE("receive filter: it follows the COB-IDs of a second SDO server that ar
   }
 }
 
-TEST_CASE("receive filter: a server that is switched off by its own client answers before it is removed [D16, Q3]") {
+TEST_CASE("receive filter: a server that its own client disables answers before its identifier is removed [D16, Q3]") {
   World world;
   Line& line = world.add_line("bus");
   const Device& device = world.add_device(line, options(true));

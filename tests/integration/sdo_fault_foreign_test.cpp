@@ -16,6 +16,7 @@ using namespace std::chrono_literals;
 using co::VirtualBus;
 using test::both_directions;
 using test::Bytes;
+using test::DeviceClient;
 using test::Direction;
 using test::ForeignClient;
 using test::ForeignServer;
@@ -24,7 +25,6 @@ using test::FrameFault;
 using test::Line;
 using test::Milliseconds;
 using test::SdoDevice;
-using test::Seat;
 using test::World;
 using Fault = VirtualBus::Fault;
 
@@ -41,17 +41,18 @@ class OurClient {
 
   std::uint32_t transfer(Direction direction, std::uint32_t seed) {
     const Bytes data = test::noise(bytes, seed);
-    Seat& seat = client_.seats[0];
+    DeviceClient& device_client = client_.device_clients[0];
     if (direction == Direction::upload) {
       server_.object = data;
-      REQUIRE(seat.upload(object, bytes, 1000ms) == CO_ERR_NONE);
+      REQUIRE(device_client.upload(object, bytes, 1000ms) == CO_ERR_NONE);
     } else {
-      REQUIRE(seat.download(object, data, 1000ms) == CO_ERR_NONE);
+      REQUIRE(device_client.download(object, data, 1000ms) == CO_ERR_NONE);
     }
-    pass(both_time_outs, [&] { return seat.is_over(); });
-    REQUIRE(seat.is_over());
-    REQUIRE((seat.code != 0 || (seat.num == bytes && seat.data() == data && server_.object == data)));
-    return seat.code;
+    pass(both_time_outs, [&] { return device_client.is_over(); });
+    REQUIRE(device_client.is_over());
+    REQUIRE((device_client.code != 0 ||
+             (device_client.num == bytes && device_client.data() == data && server_.object == data)));
+    return device_client.code;
   }
 
   World world;

@@ -90,7 +90,7 @@ class Crowd {
     wait();
     for (const Exchange& exchange : exchanges_) {
       REQUIRE(exchange.wrong() == "");
-      exchange.seat().code == 0 ? ++done : ++aborted;
+      exchange.device_client().code == 0 ? ++done : ++aborted;
     }
   }
 
@@ -104,7 +104,8 @@ class Crowd {
   }
 
   bool is_over() const {
-    return exchanges_[0].seat().is_over() && exchanges_[1].seat().is_over() && exchanges_[2].seat().is_over();
+    return exchanges_[0].device_client().is_over() && exchanges_[1].device_client().is_over() &&
+           exchanges_[2].device_client().is_over();
   }
 
   std::mt19937 random_{402};

@@ -16,11 +16,11 @@ namespace {
 using test::all_faults;
 using test::both_directions;
 using test::Direction;
+using test::FaultsAtFrames;
 using test::FaultyTransfer;
 using test::frame_faults;
 using test::FrameFault;
 using test::SdoPair;
-using test::Strikes;
 
 // Transfers with two faults, each of the first \a kinds. The first fault determines how many positions there are for
 // the second.
@@ -41,14 +41,14 @@ class Pairs {
   }
 
  private:
-  void run_second(Direction direction, const Strikes& first, std::uint32_t stride) {
+  void run_second(Direction direction, const FaultsAtFrames& first, std::uint32_t stride) {
     const FaultyTransfer alone = test::disturb(pair_, direction, first);
-    REQUIRE(alone.all_struck);
+    REQUIRE(alone.all_applied);
     for (std::uint32_t position = first[0].position + 1; position <= alone.frames; position += stride) {
       for (std::size_t kind = 0; kind < kinds_; ++kind) {
         CAPTURE(position);
         CAPTURE(kind);
-        REQUIRE(test::disturb(pair_, direction, {first[0], {frame_faults[kind], position}}).all_struck);
+        REQUIRE(test::disturb(pair_, direction, {first[0], {frame_faults[kind], position}}).all_applied);
       }
     }
   }
@@ -64,13 +64,13 @@ void run_triples(unsigned rounds, std::uint32_t seed) {
   SdoPair pair({2000});
   for (unsigned round = 0; round < rounds; ++round) {
     const std::uint32_t bytes = 29 + below(2000 - 29);
-    Strikes strikes;
+    FaultsAtFrames faults;
     for (unsigned n = 0; n < 3; ++n) {
-      strikes.push_back({frame_faults[below(std::size(frame_faults))], 1 + below(bytes / 7 + 9)});
+      faults.push_back({frame_faults[below(std::size(frame_faults))], 1 + below(bytes / 7 + 9)});
     }
     CAPTURE(round);
     pair.server.resize(SdoPair::object, bytes);
-    test::disturb(pair, below(2) == 0 ? Direction::upload : Direction::download, strikes);
+    test::disturb(pair, below(2) == 0 ? Direction::upload : Direction::download, faults);
   }
 }
 

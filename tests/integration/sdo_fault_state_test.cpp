@@ -86,7 +86,7 @@ class Ring {
   unsigned steps(Direction direction) {
     const std::uint64_t begin = pair_.world.clock.elapsed();
     REQUIRE(pair_.run(direction, SdoPair::object, client_time_out, enough_to_transfer) == 0);
-    return static_cast<unsigned>((pair_.seat().tick - begin) / frame_time.count()) + 1;
+    return static_cast<unsigned>((pair_.device_client().tick - begin) / frame_time.count()) + 1;
   }
 
   // Disturbs the client at \a step. Returns true if the transfer was aborted, false if it was complete by then.
@@ -132,7 +132,7 @@ class Ring {
 
   void check_peace() {
     pair_.check_next(enough_to_transfer);
-    REQUIRE(pair_.comes_to_rest(std::chrono::milliseconds{CO_SDO_TIMEOUT + 100}));
+    REQUIRE(pair_.becomes_idle(std::chrono::milliseconds{CO_SDO_TIMEOUT + 100}));
     pair_.check_next(enough_to_transfer);
   }
 

@@ -54,7 +54,7 @@ class Course {
       }
       CAPTURE(n);
       const FaultyTransfer result = test::disturb(pair_, direction, {{frame_faults[n], position}});
-      REQUIRE(result.all_struck);
+      REQUIRE(result.all_applied);
       if (frame_faults[n].kind == Fault::drop && is_repeated(direction, position)) {
         REQUIRE(result.code == 0);
       }
@@ -88,7 +88,7 @@ void run_patiently(Direction direction, std::uint32_t bytes, bool block) {
       CAPTURE(position);
       CAPTURE(fault.kind);
       CAPTURE(fault.delay.count());
-      REQUIRE(test::disturb(pair, direction, {{fault, position}}, 5000ms).all_struck);
+      REQUIRE(test::disturb(pair, direction, {{fault, position}}, 5000ms).all_applied);
     }
   }
 }
@@ -97,8 +97,8 @@ void run_patiently(Direction direction, std::uint32_t bytes, bool block) {
 void run_hastily(SdoPair& pair, Direction direction, const FrameFault& fault, std::uint32_t position) {
   std::string wrong = "no callback";
   pair.line.bus.add_rule({fault.kind, {}, position, 1, fault.delay});
-  pair.seat().on_end = [&] {
-    pair.seat().on_end = nullptr;
+  pair.device_client().on_end = [&] {
+    pair.device_client().on_end = nullptr;
     wrong = pair.wrong();
     pair.start(direction, SdoPair::short_object);
   };
@@ -106,10 +106,10 @@ void run_hastily(SdoPair& pair, Direction direction, const FrameFault& fault, st
   pair.finish(2500ms);
   REQUIRE(wrong == "");
   if (fault.kind == Fault::drop) {
-    REQUIRE(pair.seat().code == 0);
+    REQUIRE(pair.device_client().code == 0);
   }
   pair.line.bus.clear_rules();
-  REQUIRE(pair.comes_to_rest(fault.delay + 2100ms));
+  REQUIRE(pair.becomes_idle(fault.delay + 2100ms));
   pair.check_next();
 }
 

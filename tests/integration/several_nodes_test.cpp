@@ -145,7 +145,7 @@ TEST_CASE("several nodes: requests to unused node-IDs are not answered") {
   CHECK(crowd.line.take_texts().empty());
 }
 
-TEST_CASE("several nodes: an NMT command to node-ID 0 reaches all, to another node-ID only that node [N1]") {
+TEST_CASE("several nodes: an NMT command to node-ID 0 reaches all and one to a node-ID reaches only that node [N1]") {
   for (const std::uint8_t nodes : {std::uint8_t{2}, std::uint8_t{16}, std::uint8_t{127}}) {
     CAPTURE(int{nodes});
     Crowd crowd(nodes);

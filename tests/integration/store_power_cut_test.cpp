@@ -12,7 +12,7 @@
 namespace {
 
 using namespace test;
-using Torn = FailingNvm::Torn;
+using PartialWrite = FailingNvm::PartialWrite;
 
 struct Values {
   std::uint32_t number;
@@ -57,10 +57,10 @@ struct Device {
   explicit Device(CO_NVM_SHAPE shape) : nvm(shape) {}
 
   // Restores power and starts the node. Returns the values of the group.
-  Values boot(std::uint64_t cut_at = 0, Torn torn = Torn::untouched) {
+  Values boot(std::uint64_t cut_at = 0, PartialWrite partial_write = PartialWrite::untouched) {
     nvm.power_up();
     nvm.cut_at = cut_at;
-    nvm.torn = torn;
+    nvm.partial_write = partial_write;
     ram = stray;
     ext = {};
     ext.Size = sizeof ext;
@@ -105,17 +105,19 @@ const Change to_second{&second};
 const Change to_third{&third};
 const Change to_defaults{nullptr};
 
-constexpr Torn all_torn[] = {Torn::untouched, Torn::half, Torn::garbage, Torn::done};
+constexpr PartialWrite all_partial_writes[] = {PartialWrite::untouched, PartialWrite::half, PartialWrite::garbage,
+                                               PartialWrite::done};
 
 // Repeats a change with a power failure at each of its steps, until it is complete. Calls then(device, values found)
 // after each.
 template <class Function>
-std::uint64_t cut_everywhere(const Device& before, const Values& old, const Change& change, Torn torn, Function then) {
+std::uint64_t cut_everywhere(const Device& before, const Values& old, const Change& change, PartialWrite partial_write,
+                             Function then) {
   std::uint64_t cuts = 0;
   for (std::uint64_t step = 1;; ++step) {
     Device device = before;
     device.nvm.cut_at = step;
-    device.nvm.torn = torn;
+    device.nvm.partial_write = partial_write;
     const bool done = change.run(device) == CO_ERR_NONE;
     if (done && !device.nvm.is_off) {
       return cuts;
@@ -160,9 +162,9 @@ TEST_CASE("parameters: after power off at every byte a group has its old or its 
     for (const Start& start : starts) {
       const Device before = device_after(shape, start);
       for (const Change& change : {to_first, to_second, to_defaults}) {
-        for (const Torn torn : all_torn) {
+        for (const PartialWrite partial_write : all_partial_writes) {
           CAPTURE(start.name);
-          cuts += cut_everywhere(before, last_of(start), change, torn, [](Device&, const Values&) {});
+          cuts += cut_everywhere(before, last_of(start), change, partial_write, [](Device&, const Values&) {});
         }
       }
     }
@@ -176,9 +178,9 @@ TEST_CASE("parameters: power off at every pair of bytes of two consecutive store
   for (const CO_NVM_SHAPE& shape : {shapes[0], shapes[2]}) {
     for (const Start& start : starts) {
       const Device before = device_after(shape, start);
-      for (const Torn torn : all_torn) {
-        cut_everywhere(before, last_of(start), to_third, torn, [&](Device& device, const Values& found) {
-          pairs += cut_everywhere(device, found, to_second, torn, [](Device&, const Values&) {});
+      for (const PartialWrite partial_write : all_partial_writes) {
+        cut_everywhere(before, last_of(start), to_third, partial_write, [&](Device& device, const Values& found) {
+          pairs += cut_everywhere(device, found, to_second, partial_write, [](Device&, const Values&) {});
         });
       }
     }
@@ -250,11 +252,11 @@ constexpr OldRecords all_old_records[] = {
 
 // Cuts the power at each step of a power-on that rewrites old records, and calls then(device).
 template <class Function>
-std::uint64_t cut_power_on(const Device& before, const Values& values, Torn torn, Function then) {
+std::uint64_t cut_power_on(const Device& before, const Values& values, PartialWrite partial_write, Function then) {
   std::uint64_t cuts = 0;
   for (std::uint64_t step = 1;; ++step, ++cuts) {
     Device device = before;
-    const Values found = device.boot(step, torn);
+    const Values found = device.boot(step, partial_write);
     REQUIRE(found == values);
     REQUIRE(device.error == CO_ERR_NONE);
     REQUIRE_FALSE(device.nvm.misused);
@@ -275,12 +277,12 @@ TEST_CASE("parameters: power off at every byte and pair of bytes while old recor
       if (records.has_newer) {
         put_old_record(before, 1, 8, records.newer);
       }
-      for (const Torn torn : all_torn) {
-        cuts += cut_power_on(before, records.last(), torn, [&](const Device& device) {
+      for (const PartialWrite partial_write : all_partial_writes) {
+        cuts += cut_power_on(before, records.last(), partial_write, [&](const Device& device) {
           if (shape.EraseSize != 0) {
             return;  // pairs of power failures take too long with flash
           }
-          cuts += cut_power_on(device, records.last(), torn, [&](Device& again) {
+          cuts += cut_power_on(device, records.last(), partial_write, [&](Device& again) {
             REQUIRE(again.boot() == records.last());
             REQUIRE_FALSE(has_old_record(again));
           });
@@ -297,10 +299,10 @@ TEST_CASE("parameters: after any power failure while old records are rewritten, 
     Device before(shape);
     put_old_record(before, 0, 7, &first);
     put_old_record(before, 1, 8, &second);
-    cut_power_on(before, second, Torn::half, [](const Device& device) {
+    cut_power_on(before, second, PartialWrite::half, [](const Device& device) {
       Device next = device;
       REQUIRE(next.boot() == second);
-      cut_everywhere(next, second, to_third, Torn::garbage, [](Device&, const Values&) {});
+      cut_everywhere(next, second, to_third, PartialWrite::garbage, [](Device&, const Values&) {});
     });
   }
 }
@@ -308,8 +310,8 @@ TEST_CASE("parameters: after any power failure while old records are rewritten, 
 TEST_CASE("parameters: after any power failure the next store works and is kept by the following one [T13]") {
   for (const CO_NVM_SHAPE& shape : shapes) {
     const Device before = device_after(shape, starts[2]);
-    for (const Torn torn : all_torn) {
-      cut_everywhere(before, second, to_third, torn, [](Device& device, const Values&) {
+    for (const PartialWrite partial_write : all_partial_writes) {
+      cut_everywhere(before, second, to_third, partial_write, [](Device& device, const Values&) {
         REQUIRE(to_first.run(device) == CO_ERR_NONE);
         REQUIRE(device.boot() == first);
         REQUIRE(to_second.run(device) == CO_ERR_NONE);
@@ -326,8 +328,8 @@ TEST_CASE("parameters: writes without effect that are reported as done are detec
       for (const std::uint64_t number : {1U, 3U, 1000U}) {
         Device device = before;
         device.nvm.steps = 0;
-        device.nvm.deaf_from = step;
-        device.nvm.deaf_to = step + number;
+        device.nvm.ignore_from = step;
+        device.nvm.ignore_to = step + number;
         const CO_ERR err = to_third.run(device);
         const Values found = device.boot();
         REQUIRE(found == (err == CO_ERR_NONE ? third : second));
@@ -358,7 +360,7 @@ TEST_CASE("parameters: a read that fails or returns other bytes gives old, new o
     for (const bool lies : {false, true}) {
       Device device = before;
       device.nvm.reads = 0;
-      (lies ? device.nvm.lie_at : device.nvm.refuse_read) = read;
+      (lies ? device.nvm.corrupt_read : device.nvm.refuse_read) = read;
       const Values found = device.boot();
       REQUIRE((found == second || found == first || found == defaults));
     }

@@ -139,7 +139,7 @@ TEST_CASE("nodes on a virtual bus: each boots, answers with its own CAN-IDs and 
   CHECK(line.heard() == Texts{"586#4B00200000000000"});
 }
 
-TEST_CASE("nodes on a virtual bus: an NMT command to all reaches all, to one node only that node") {
+TEST_CASE("nodes on a virtual bus: an NMT command to all nodes reaches all and one to a node reaches only that node") {
   VirtualClock clock;
   Line line(clock);
   Device five(line.bus, clock, 5);

@@ -14,8 +14,8 @@ cmake -S drive -B build -G Ninja -DLEXICAN="$source" -DLEXICAN_CODICT="$codict" 
   ${4:+-DCMAKE_C_COMPILER_LAUNCHER=$4 -DCMAKE_CXX_COMPILER_LAUNCHER=$4}
 cmake --build build
 ctest --test-dir build --output-on-failure
-build/drive_node | tee said
-grep -E 'ms  node    701  00  boot-up$' said
-grep -E 'ms  node    181  40 00 00 00 00 00  TPDO 1$' said
+build/drive_node | tee output
+grep -E 'ms  node    701  00  boot-up$' output
+grep -E 'ms  node    181  40 00 00 00 00 00  TPDO 1$' output
 # The build has not changed what `codict new` generated.
 "$codict" gen drive/drive.eds -o drive/generated --check

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two simulated controllers that are connected to each other; a thread simulates the interrupts of each.
+// Two simulated CAN controllers that are connected to each other. A thread for each simulates its interrupts.
 #ifndef WIRE_H_
 #define WIRE_H_
 
@@ -15,13 +15,14 @@ typedef struct CONTROLLER_T {
   pthread_t Interrupt;
   pthread_mutex_t Mutex;  // masks the interrupts of this controller
   pthread_cond_t Changed;
-  CO_IF_FRM Box[WIRE_MAILBOXES];
-  unsigned Num;
-  bool On;
+  CO_IF_FRM Box[WIRE_MAILBOXES];  // transmit mailboxes
+  unsigned Num;                   // frames in Box, the first is transmitted next
+  bool On;                        // on the bus
 } CONTROLLER;
 
 extern const NODE_TASK_CAN WireDriver;  // its context argument is a CONTROLLER
 
+// Connects two controllers and starts their threads.
 void WireConnect(CONTROLLER* one, CONTROLLER* other);
 
 #endif

@@ -83,7 +83,7 @@ std::string with_table(const std::string& page, const std::string& table) {
   const std::size_t begin = page.find(begin_mark);
   const std::size_t end = page.find(end_mark);
   if (begin == std::string::npos || end == std::string::npos || end < begin) {
-    throw std::runtime_error("the page has no place for the table");
+    throw std::runtime_error("the page has no marks for the speed table");
   }
   return page.substr(0, begin + begin_mark.size()) + table + page.substr(end);
 }

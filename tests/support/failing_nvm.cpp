@@ -10,15 +10,15 @@ bool FailingNvm::step(std::uint8_t& byte, std::uint8_t to) {
   }
   ++steps;
   if (steps != cut_at) {
-    byte = steps >= deaf_from && steps < deaf_to ? byte : to;
+    byte = steps >= ignore_from && steps < ignore_to ? byte : to;
     return true;
   }
   is_off = true;
-  switch (torn) {
-    case Torn::untouched: break;
-    case Torn::half: byte = static_cast<std::uint8_t>((byte & 0xF0U) | (to & 0x0FU)); break;
-    case Torn::garbage: byte = static_cast<std::uint8_t>(byte ^ 0x5AU); break;
-    case Torn::done: byte = to; break;
+  switch (partial_write) {
+    case PartialWrite::untouched: break;
+    case PartialWrite::half: byte = static_cast<std::uint8_t>((byte & 0xF0U) | (to & 0x0FU)); break;
+    case PartialWrite::garbage: byte = static_cast<std::uint8_t>(byte ^ 0x5AU); break;
+    case PartialWrite::done: byte = to; break;
   }
   return false;
 }
@@ -47,7 +47,7 @@ struct FailingNvmDriver {
     for (std::uint32_t n = 0; n < size; ++n) {
       buffer[n] = nvm.bytes[start + n];
     }
-    if (nvm.reads == nvm.lie_at && size != 0) {
+    if (nvm.reads == nvm.corrupt_read && size != 0) {
       buffer[size / 2] ^= 0x10;
     }
     return size;
@@ -59,7 +59,7 @@ struct FailingNvmDriver {
     std::uint32_t done = 0;
     for (; !nvm.misused && done < size; ++done) {
       std::uint8_t& byte = nvm.bytes[start + done];
-      nvm.misused |= nvm.shape.EraseSize != 0 && byte != 0xFF && nvm.deaf_to == 0;
+      nvm.misused |= nvm.shape.EraseSize != 0 && byte != 0xFF && nvm.ignore_to == 0;
       if (!nvm.step(byte, buffer[done])) {
         break;
       }

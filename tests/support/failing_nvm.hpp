@@ -13,7 +13,7 @@ namespace test {
 
 struct FailingNvm {
   /// Content of a byte whose write was interrupted.
-  enum class Torn : std::uint8_t { untouched, half, garbage, done };
+  enum class PartialWrite : std::uint8_t { untouched, half, garbage, done };
 
   explicit FailingNvm(CO_NVM_SHAPE of) : shape(of), bytes(of.Capacity, 0xFF) {}
 
@@ -21,14 +21,14 @@ struct FailingNvm {
   std::vector<std::uint8_t> bytes;
   std::uint64_t steps = 0;   ///< steps executed
   std::uint64_t cut_at = 0;  ///< step that is interrupted, from 1; 0: none. All later accesses fail
-  Torn torn = Torn::untouched;
+  PartialWrite partial_write = PartialWrite::untouched;
   bool is_off = false;
-  std::uint64_t deaf_from = 0;  ///< steps deaf_from … deaf_to-1 have no effect and are reported as successful
-  std::uint64_t deaf_to = 0;
+  std::uint64_t ignore_from = 0;  ///< steps ignore_from … ignore_to-1 have no effect and are reported as successful
+  std::uint64_t ignore_to = 0;
   std::uint64_t reads = 0;
-  std::uint64_t lie_at = 0;       ///< number of the read that returns wrong bytes, from 1; 0: none
-  std::uint64_t refuse_read = 0;  ///< number of the read that fails, from 1; 0: none
-  bool misused = false;           ///< an access has violated the geometry
+  std::uint64_t corrupt_read = 0;  ///< number of the read that returns wrong bytes, from 1; 0: none
+  std::uint64_t refuse_read = 0;   ///< number of the read that fails, from 1; 0: none
+  bool misused = false;            ///< an access has violated the geometry
 
   /// Restores the power.
   void power_up();

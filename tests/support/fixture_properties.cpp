@@ -60,7 +60,7 @@ void Fixture::observe_channels() {
 }
 
 void Fixture::check_memory(Where at) {
-  Changeable may;
+  ChangeableEntries may;
   for (std::size_t n = 0; n < channels_.size(); ++n) {
     channels_[n].take_changeable(may);
     if (node.Sdo[n].State == 0) {

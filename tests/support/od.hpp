@@ -30,15 +30,15 @@ inline OD_IO_t variable(Bytes& memory) {
 }
 
 /// Result of a read, and the bytes that were read.
-struct Given {
+struct ReadResult {
   ODR_t result;
   Bytes data;
 
-  friend bool operator==(const Given& a, const Given& b) { return a.result == b.result && a.data == b.data; }
+  friend bool operator==(const ReadResult& a, const ReadResult& b) { return a.result == b.result && a.data == b.data; }
 };
 
 /// Reads at most \a count bytes. Checks that the buffer behind them does not change.
-inline Given read(OD_IO_t& io, OD_size_t count) {
+inline ReadResult read(OD_IO_t& io, OD_size_t count) {
   Bytes buffer(count + 4U, 0xEE);
   OD_size_t given = 0xEEEEEEEE;
   const ODR_t result = io.read(&io.stream, buffer.data(), count, &given);
@@ -66,8 +66,8 @@ inline ODR_t write(OD_IO_t& io, const Bytes& data) {
 }  // namespace test
 
 template <>
-struct doctest::StringMaker<test::Given> {
-  static String convert(const test::Given& given) {
+struct doctest::StringMaker<test::ReadResult> {
+  static String convert(const test::ReadResult& given) {
     std::string text = "result " + std::to_string(given.result) + ":";
     for (const std::uint8_t byte : given.data) {
       text += " " + std::to_string(byte);

@@ -139,7 +139,7 @@ bool SdoObserver::may_have_written() const {
   return phase_ == Phase::downloading || (block && was_full);
 }
 
-void SdoObserver::take_changeable(Changeable& all) {
+void SdoObserver::take_changeable(ChangeableEntries& all) {
   if (may_have_written()) {
     changeable_.streaming.insert(dev_);
   }

@@ -16,7 +16,7 @@
 namespace test {
 
 /// Entries, as CO_DEV(), that may have changed.
-struct Changeable {
+struct ChangeableEntries {
   std::set<std::uint32_t> completed;  ///< their download was confirmed
   std::set<std::uint32_t> streaming;  ///< may be partially written: their download is open or was aborted
 };
@@ -31,7 +31,7 @@ class SdoObserver {
   /// Returns true if the next frame of the server may be a segment of a block upload.
   bool is_sending() const { return phase_ == Phase::sending && !ending_; }
   /// Adds the entries that may have changed since the last call.
-  void take_changeable(Changeable& all);
+  void take_changeable(ChangeableEntries& all);
   void close();  ///< the server is idle
 
  private:
@@ -68,7 +68,7 @@ class SdoObserver {
   bool ending_ = false;             // the client has acknowledged all segments of a block upload
   std::uint8_t blksize_ = 0;
   std::array<std::uint8_t, 8> last_segment_{};
-  Changeable changeable_;
+  ChangeableEntries changeable_;
 };
 
 }  // namespace test

@@ -49,7 +49,7 @@ Bytes noise(std::uint32_t size, std::uint32_t seed) {
 
 // A client -----------------------------------------------------------------------------------------------------------
 
-CO_CSDO* Seat::open(std::uint32_t key, const Bytes& data) {
+CO_CSDO* DeviceClient::open(std::uint32_t key, const Bytes& data) {
   REQUIRE(is_over());
   memory_.assign(data.size() + 2 * guard, guard_byte);
   std::copy(data.begin(), data.end(), memory_.begin() + guard);
@@ -58,33 +58,33 @@ CO_CSDO* Seat::open(std::uint32_t key, const Bytes& data) {
   return COCSdoFind(device_.node(), static_cast<std::uint8_t>(number_));
 }
 
-CO_ERR Seat::upload(std::uint32_t key, std::uint32_t size, Milliseconds time_out) {
+CO_ERR DeviceClient::upload(std::uint32_t key, std::uint32_t size, Milliseconds time_out) {
   CO_CSDO* const csdo = open(key, Bytes(size, blank));
   sent_.clear();
   return COCSdoRequestUpload(csdo, key, memory_.data() + guard, size, note,
                              static_cast<std::uint32_t>(time_out.count()));
 }
 
-CO_ERR Seat::download(std::uint32_t key, const Bytes& data, Milliseconds time_out) {
+CO_ERR DeviceClient::download(std::uint32_t key, const Bytes& data, Milliseconds time_out) {
   CO_CSDO* const csdo = open(key, data);
   sent_ = data;
   return COCSdoRequestDownload(csdo, key, memory_.data() + guard, static_cast<std::uint32_t>(data.size()), note,
                                static_cast<std::uint32_t>(time_out.count()));
 }
 
-Bytes Seat::data() const {
+Bytes DeviceClient::data() const {
   const auto first = memory_.begin() + guard;
   return {first, first + static_cast<std::ptrdiff_t>(std::min<std::size_t>(num, memory_.size() - 2 * guard))};
 }
 
-void Seat::note(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint32_t code) {
+void DeviceClient::note(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint32_t code) {
   auto* const device = static_cast<SdoDevice*>(CONodeGetUser(csdo->Node));
   const auto number = static_cast<std::size_t>(csdo - csdo->Node->CSdo);
   CHECK(csdo->State == CO_CSDO_STATE_IDLE);
-  device->seats[number].end(CO_DEV(index, sub), code);
+  device->device_clients[number].end(CO_DEV(index, sub), code);
 }
 
-void Seat::end(std::uint32_t key, std::uint32_t abort_code) {
+void DeviceClient::end(std::uint32_t key, std::uint32_t abort_code) {
   ++callbacks;
   code = abort_code;
   num = COCSdoGetNum(&device_->CSdo[number_]);
@@ -110,7 +110,7 @@ SdoDevice::SdoDevice(World& world, Line& line, const SdoDeviceOptions& options)
       queue_(options.tx_queue),
       device_(make_device(line)) {
   for (unsigned n = 0; n < CO_CSDO_N; ++n) {
-    seats.emplace_back(*this, n);
+    device_clients.emplace_back(*this, n);
   }
   ext_ = *device_.node.Ext;
   ext_.TxQueue = queue_.empty() ? nullptr : queue_.data();
@@ -230,21 +230,21 @@ void Exchange::start(Direction direction, std::uint32_t key, Milliseconds time_o
   data_ = noise(size, ++seed_);
   if (direction == Direction::upload) {
     server_.fill(key, data_);
-    CHECK(seat().upload(key, size, time_out) == CO_ERR_NONE);
+    CHECK(device_client().upload(key, size, time_out) == CO_ERR_NONE);
     return;
   }
   Bytes others = data_;
   std::for_each(others.begin(), others.end(), [](std::uint8_t& byte) { byte ^= 0xFFU; });
   server_.fill(key, others);
-  CHECK(seat().download(key, data_, time_out) == CO_ERR_NONE);
+  CHECK(device_client().download(key, data_, time_out) == CO_ERR_NONE);
 }
 
 std::string Exchange::wrong() const {
-  if (seat().code != 0) {
+  if (device_client().code != 0) {
     return "";
   }
-  const std::string what = seat().num != data_.size() ? "number of bytes" : "";
-  return what + (seat().data() != data_ ? " data of the client" : "") +
+  const std::string what = device_client().num != data_.size() ? "number of bytes" : "";
+  return what + (device_client().data() != data_ ? " data of the client" : "") +
          (server_.read(key_) != data_ ? " data of the server" : "");
 }
 
@@ -282,13 +282,13 @@ std::uint32_t SdoPair::finish(Milliseconds limit) {
   constexpr Milliseconds step{50};
   const std::uint64_t end = began_ + world.clock.ticks(limit);
   world.settle();
-  while (!seat().is_over() && world.clock.elapsed() < end) {
+  while (!device_client().is_over() && world.clock.elapsed() < end) {
     world.pass(step);
   }
-  REQUIRE(seat().is_over());
-  REQUIRE(seat().tick <= end);
+  REQUIRE(device_client().is_over());
+  REQUIRE(device_client().tick <= end);
   REQUIRE(wrong() == "");
-  return seat().code;
+  return device_client().code;
 }
 
 std::uint32_t SdoPair::run(Direction direction, std::uint32_t key, Milliseconds time_out, Milliseconds limit) {
@@ -302,7 +302,7 @@ void SdoPair::check_next(Milliseconds limit) {
   }
 }
 
-bool SdoPair::comes_to_rest(Milliseconds within) {
+bool SdoPair::becomes_idle(Milliseconds within) {
   world.pass(within);
   return server.is_at_rest() && client.is_at_rest();
 }

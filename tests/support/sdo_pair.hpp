@@ -32,9 +32,9 @@ Bytes noise(std::uint32_t size, std::uint32_t seed);
 class SdoDevice;
 
 /// An SDO client of a device, with the buffer of its current or last request between guard bytes.
-class Seat {
+class DeviceClient {
  public:
-  Seat(SdoDevice& device, unsigned number) : device_(device), number_(number) {}
+  DeviceClient(SdoDevice& device, unsigned number) : device_(device), number_(number) {}
 
   CO_ERR upload(std::uint32_t key, std::uint32_t size, Milliseconds time_out);
   CO_ERR download(std::uint32_t key, const Bytes& data, Milliseconds time_out);
@@ -96,7 +96,7 @@ class SdoDevice {
   co::VirtualBus::Port& port() { return device_.port; }
   CO_NODE_COUNTERS counters() const { return device_.counters(); }
 
-  std::vector<Seat> seats;  ///< of the clients
+  std::vector<DeviceClient> device_clients;  ///< of the clients
 
  private:
   struct Connection {
@@ -126,13 +126,14 @@ class SdoDevice {
 /// Transfers of one client, and the objects of its server.
 class Exchange {
  public:
-  Exchange(SdoDevice& client, unsigned seat, SdoDevice& server) : client_(client), number_(seat), server_(server) {}
+  Exchange(SdoDevice& client, unsigned device_client, SdoDevice& server)
+      : client_(client), number_(device_client), server_(server) {}
 
   /// Starts a transfer with other data than the previous one. \a time_out: of the client, for each answer.
   void start(Direction direction, std::uint32_t key, Milliseconds time_out);
   /// Returns the fault of a finished transfer; empty: both sides have the correct data, or an abort code.
   std::string wrong() const;
-  Seat& seat() const { return client_.seats[number_]; }
+  DeviceClient& device_client() const { return client_.device_clients[number_]; }
 
  private:
   SdoDevice& client_;
@@ -174,11 +175,11 @@ class SdoPair {
   /// Checks that the next transfers, in both directions, succeed.
   void check_next(Milliseconds limit = Milliseconds{0});
   /// Returns true if both nodes become idle within \a within.
-  bool comes_to_rest(Milliseconds within);
+  bool becomes_idle(Milliseconds within);
   /// Returns the number of frames of an undisturbed transfer.
   std::uint32_t count_frames(Direction direction, std::uint32_t key = object);
 
-  Seat& seat() const { return exchange_.seat(); }
+  DeviceClient& device_client() const { return exchange_.device_client(); }
 
   World world;
   Line& line;

@@ -26,21 +26,21 @@ inline constexpr FrameFault frame_faults[] = {
 };
 
 /// A fault, and the number of the frame on the bus that it applies to, from 1.
-struct Strike {
+struct FaultAtFrame {
   FrameFault what;
   std::uint32_t position;
 };
-using Strikes = std::vector<Strike>;
+using FaultsAtFrames = std::vector<FaultAtFrame>;
 
 struct FaultyTransfer {
   std::uint32_t code;    ///< abort code of the transfer; 0: success
   std::uint32_t frames;  ///< number of frames on the bus
-  bool all_struck;       ///< every fault was applied
+  bool all_applied;      ///< every fault was applied
 };
 
 /// Runs a transfer of the object with these faults. Checks that it ends with the correct data or an abort code within a
 /// time-out for each fault, and that later transfers succeed: at once, and again when both sides are idle.
-FaultyTransfer disturb(SdoPair& pair, Direction direction, const Strikes& strikes,
+FaultyTransfer disturb(SdoPair& pair, Direction direction, const FaultsAtFrames& faults,
                        Milliseconds time_out = Milliseconds{1000});
 
 /// Returns true if the environment variable LEXICAN_SDO_FAULTS is "all": exhaustive tests, for the lane sdo_faults.

@@ -97,7 +97,7 @@ TEST_CASE("linux timer: stores the alarm, which the next one replaces and 0 dele
   CHECK(timer.until_alarm() == LinuxTimer::never);
 }
 
-TEST_CASE("linux timer: a wait ends on the tick, never before it") {
+TEST_CASE("linux timer: a wait ends on its tick and never before") {
   fake_now = 0;
   LinuxTimer timer(fake_clock);
   timer.start(300);

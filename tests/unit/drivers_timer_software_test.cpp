@@ -19,7 +19,7 @@ using co::VirtualTimerDriver;
 
 }  // namespace
 
-TEST_CASE("virtual clock: advances only by calls, and wraps at 2^32 for the nodes") {
+TEST_CASE("virtual clock: it advances only by calls and wraps at 2^32 for the nodes") {
   VirtualClock clock(0xFFFFFFFE);
   VirtualTimer timer(clock);
   CHECK(VirtualTimerDriver.Now(&timer) == 0xFFFFFFFE);
@@ -50,7 +50,7 @@ TEST_CASE("virtual clock: time and ticks are exact at any frequency, with ticks 
   CHECK(clock.ticks(10 * 365 * 24h) == 10ull * 365 * 86400 * 72000000);
 }
 
-TEST_CASE("virtual clock: each alarm elapses once, on its tick and in order") {
+TEST_CASE("virtual clock: each alarm elapses once on its tick and in order") {
   VirtualClock clock(1000);
   std::vector<std::string> calls;
   const auto record = [&](const char* name) {
@@ -148,7 +148,7 @@ TEST_CASE("software timer: counts calls of Update and reports the end once") {
   CHECK(driver.Update() == 0);
 }
 
-TEST_CASE("software timer: it can be stopped, and restarted with a new time") {
+TEST_CASE("software timer: it can be stopped and restarted with a new time") {
   const CO_IF_TIMER_DRV& driver = SoftwareTimerDriver;
   driver.Reload(1);
   driver.Stop();

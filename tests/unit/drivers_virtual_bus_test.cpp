@@ -235,7 +235,7 @@ TEST_CASE("virtual bus: a full receive queue keeps the oldest frames, counts los
   CHECK(received(b) == Texts{"201#05"});
 }
 
-TEST_CASE("virtual bus: error frames reach one port, or from outside all ports, regardless of filters") {
+TEST_CASE("virtual bus: error frames of one port and of all ports are received regardless of filters") {
   Bench bench;
   bench.a.filter(nullptr, 0);
   bench.a.report(VirtualBus::error_frame(0x4, 0x20));

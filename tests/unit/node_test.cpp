@@ -81,7 +81,7 @@ struct OldNode {
   }
 };
 
-TEST_CASE("node: classic drivers are initialised once, and the controller is enabled") {
+TEST_CASE("node: classic drivers are initialised once and the controller is enabled") {
   OldNode n;
   CHECK(n.init() == CO_ERR_NONE);
   CHECK(n.node.Nmt.Mode == CO_INIT);

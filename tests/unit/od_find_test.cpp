@@ -250,7 +250,7 @@ TEST_CASE("OD_rwRestart: the next call starts at the beginning; a null stream is
 
 // Extensions ----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("OD_extension_init: OD_getSub returns the functions of the extension, unless odOrig is set") {
+TEST_CASE("OD_extension_init: OD_getSub returns the functions of the extension unless odOrig is set") {
   Fixture node(with_extensible());
   int object = 0;
   OD_extension_t extension{};
@@ -280,7 +280,7 @@ TEST_CASE("OD_extension_init: a null function refuses with ODR_UNSUPP_ACCESS") {
   REQUIRE(OD_extension_init(OD_find(&node.od, 0x3000), &extension) == ODR_OK);
   OD_IO_t io = variable(node, 0x3000);
   extensible = 7;
-  CHECK(read(io, 4) == Given{ODR_UNSUPP_ACCESS, {}});
+  CHECK(read(io, 4) == ReadResult{ODR_UNSUPP_ACCESS, {}});
   CHECK(write(io, {1, 2, 3, 4}) == ODR_UNSUPP_ACCESS);
   CHECK(extensible == 7);
 }

@@ -32,18 +32,18 @@ TEST_CASE("OD_readOriginal: a variable without memory is ODR_SUB_NOT_EXIST") {
   Bytes memory(4);
   OD_IO_t io = variable(memory);
   io.stream.dataOrig = nullptr;
-  CHECK(read(io, 4) == Given{ODR_SUB_NOT_EXIST, {}});
+  CHECK(read(io, 4) == ReadResult{ODR_SUB_NOT_EXIST, {}});
   Variables variables;
   OD_IO_t number = variable(variables.node, 0x400A, 0);
   OD_IO_t stream = variable(variables.node, 0x400A, 1);
-  CHECK(read(number, 4) == Given{ODR_SUB_NOT_EXIST, {}});
-  CHECK(read(stream, 4) == Given{ODR_SUB_NOT_EXIST, {}});
+  CHECK(read(number, 4) == ReadResult{ODR_SUB_NOT_EXIST, {}});
+  CHECK(read(stream, 4) == ReadResult{ODR_SUB_NOT_EXIST, {}});
   OD_IO_t text = variable(variables.node, 0x2110);
   OD_IO_t domain = variable(variables.node, 0x4007);
   variables.node.objects.text.Start = nullptr;
   variables.domain.Start = nullptr;
-  CHECK(read(text, 4) == Given{ODR_SUB_NOT_EXIST, {}});
-  CHECK(read(domain, 4) == Given{ODR_SUB_NOT_EXIST, {}});
+  CHECK(read(text, 4) == ReadResult{ODR_SUB_NOT_EXIST, {}});
+  CHECK(read(domain, 4) == ReadResult{ODR_SUB_NOT_EXIST, {}});
 }
 
 TEST_CASE("OD_readOriginal: a buffer of the length or more gets all bytes with ODR_OK") {
@@ -51,7 +51,7 @@ TEST_CASE("OD_readOriginal: a buffer of the length or more gets all bytes with O
   for (Variable& one : variables.all()) {
     CAPTURE(one.name);
     for (const OD_size_t more : {0U, 1U, 7U, 100U}) {
-      CHECK(read(one.io, length_of(one) + more) == Given{ODR_OK, one.value});
+      CHECK(read(one.io, length_of(one) + more) == ReadResult{ODR_OK, one.value});
       CHECK(one.io.stream.dataOffset == 0);
     }
   }
@@ -66,10 +66,10 @@ TEST_CASE("OD_readOriginal: pieces return ODR_PARTIAL, the last one ODR_OK, and 
       for (unsigned times = 0; times < 2; ++times) {
         OD_size_t at = 0;
         for (; length_of(one) - at > count; at += count) {
-          CHECK(read(one.io, count) == Given{ODR_PARTIAL, piece(one.value, at, count)});
+          CHECK(read(one.io, count) == ReadResult{ODR_PARTIAL, piece(one.value, at, count)});
           CHECK(one.io.stream.dataOffset == at + count);
         }
-        CHECK(read(one.io, count) == Given{ODR_OK, piece(one.value, at, count)});
+        CHECK(read(one.io, count) == ReadResult{ODR_OK, piece(one.value, at, count)});
         CHECK(one.io.stream.dataOffset == 0);
       }
     }
@@ -80,9 +80,9 @@ TEST_CASE("OD_readOriginal: a buffer of no bytes returns ODR_PARTIAL") {
   Variables variables;
   for (Variable& one : variables.all()) {
     CAPTURE(one.name);
-    CHECK(read(one.io, 0) == Given{ODR_PARTIAL, {}});
+    CHECK(read(one.io, 0) == ReadResult{ODR_PARTIAL, {}});
     CHECK(one.io.stream.dataOffset == 0);
-    CHECK(read(one.io, 100) == Given{ODR_OK, one.value});
+    CHECK(read(one.io, 100) == ReadResult{ODR_OK, one.value});
   }
 }
 
@@ -93,9 +93,9 @@ TEST_CASE("OD_readOriginal: pieces of different lengths are consecutive") {
       continue;
     }
     CAPTURE(one.name);
-    CHECK(read(one.io, 1) == Given{ODR_PARTIAL, piece(one.value, 0, 1)});
-    CHECK(read(one.io, 2) == Given{ODR_PARTIAL, piece(one.value, 1, 2)});
-    CHECK(read(one.io, 100) == Given{ODR_OK, piece(one.value, 3, 100)});
+    CHECK(read(one.io, 1) == ReadResult{ODR_PARTIAL, piece(one.value, 0, 1)});
+    CHECK(read(one.io, 2) == ReadResult{ODR_PARTIAL, piece(one.value, 1, 2)});
+    CHECK(read(one.io, 100) == ReadResult{ODR_OK, piece(one.value, 3, 100)});
   }
 }
 
@@ -109,10 +109,10 @@ TEST_CASE("OD_readOriginal: an offset at or behind the end is ODR_DEV_INCOMPAT")
       }
       CAPTURE(behind);
       one.io.stream.dataOffset = length_of(one) + behind;
-      CHECK(read(one.io, 1) == Given{ODR_DEV_INCOMPAT, {}});
+      CHECK(read(one.io, 1) == ReadResult{ODR_DEV_INCOMPAT, {}});
     }
     OD_rwRestart(&one.io.stream);
-    CHECK(read(one.io, 100) == Given{ODR_OK, one.value});
+    CHECK(read(one.io, 100) == ReadResult{ODR_OK, one.value});
   }
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("OD_rwRestart: an unfinished read restarts") {
     CAPTURE(one.name);
     CHECK(read(one.io, 1).result == ODR_PARTIAL);
     OD_rwRestart(&one.io.stream);
-    CHECK(read(one.io, 100) == Given{ODR_OK, one.value});
+    CHECK(read(one.io, 100) == ReadResult{ODR_OK, one.value});
   }
 }
 
@@ -137,15 +137,15 @@ TEST_CASE("OD_readOriginal: accesses to one variable, also by CODict, have indep
     }
     CAPTURE(one.name);
     OD_IO_t other = one.io;
-    CHECK(read(one.io, 1) == Given{ODR_PARTIAL, piece(one.value, 0, 1)});
-    CHECK(read(other, 2) == Given{ODR_PARTIAL, piece(one.value, 0, 2)});
-    CHECK(read(one.io, 1) == Given{ODR_PARTIAL, piece(one.value, 1, 1)});
+    CHECK(read(one.io, 1) == ReadResult{ODR_PARTIAL, piece(one.value, 0, 1)});
+    CHECK(read(other, 2) == ReadResult{ODR_PARTIAL, piece(one.value, 0, 2)});
+    CHECK(read(one.io, 1) == ReadResult{ODR_PARTIAL, piece(one.value, 1, 1)});
     if (one.io.stream.Entry != nullptr) {
       std::uint8_t buffer[8] = {};
       (void)CODictRdBuffer(&variables.node->Dict, CO_DEV(one.io.stream.index, one.io.stream.subIndex), buffer, 1);
     }
-    CHECK(read(other, 100) == Given{ODR_OK, piece(one.value, 2, 100)});
-    CHECK(read(one.io, 100) == Given{ODR_OK, piece(one.value, 2, 100)});
+    CHECK(read(other, 100) == ReadResult{ODR_OK, piece(one.value, 2, 100)});
+    CHECK(read(one.io, 100) == ReadResult{ODR_OK, piece(one.value, 2, 100)});
   }
 }
 
@@ -164,16 +164,16 @@ TEST_CASE("OD_readOriginal: a refusal of the type is the result with its abort c
   for (const auto& one : cases) {
     CAPTURE(one.result);
     variables.plain.on_piece = [&one](CO_OBJ*, CO_NODE*) { return one.err; };
-    CHECK(read(io, 5) == Given{one.result, {}});
+    CHECK(read(io, 5) == ReadResult{one.result, {}});
     CHECK(io.stream.dataOffset == 0);
   }
   variables.plain.on_piece = nullptr;
-  CHECK(read(io, 5) == Given{ODR_PARTIAL, {1, 2, 3, 4, 5}});
+  CHECK(read(io, 5) == ReadResult{ODR_PARTIAL, {1, 2, 3, 4, 5}});
   variables.plain.on_piece = [](CO_OBJ*, CO_NODE*) { return CO_ERR_TYPE_RD; };
-  CHECK(read(io, 5) == Given{ODR_DATA_TRANSF, {}});
+  CHECK(read(io, 5) == ReadResult{ODR_DATA_TRANSF, {}});
   CHECK(io.stream.dataOffset == 5);
   variables.plain.on_piece = nullptr;
-  CHECK(read(io, 5) == Given{ODR_PARTIAL, {6, 7, 8, 9, 10}});
+  CHECK(read(io, 5) == ReadResult{ODR_PARTIAL, {6, 7, 8, 9, 10}});
 }
 
 TEST_CASE("OD_readOriginal: a type that cannot be read is ODR_WRITEONLY") {
@@ -181,7 +181,7 @@ TEST_CASE("OD_readOriginal: a type that cannot be read is ODR_WRITEONLY") {
                                            nullptr, nullptr, nullptr};
   Fixture node(Setup().only_small().with({CO_KEY(0x4000, 0, CO_OBJ_____RW), &without_read, CO_DATA(&node)}));
   OD_IO_t io = variable(node, 0x4000);
-  CHECK(read(io, 4) == Given{ODR_WRITEONLY, {}});
+  CHECK(read(io, 4) == ReadResult{ODR_WRITEONLY, {}});
 }
 
 // Streams -------------------------------------------------------------------------------------------------------------
@@ -191,20 +191,20 @@ TEST_CASE("OD_readOriginal: an OCTET_STRING ends with its value") {
   variables.node.objects.octets.Size = 4;
   OD_IO_t io = variable(variables.node, 0x2111);
   CHECK(io.stream.dataLength == 10);
-  CHECK(read(io, 10) == Given{ODR_OK, {1, 2, 3, 4}});
-  CHECK(read(io, 3) == Given{ODR_PARTIAL, {1, 2, 3}});
-  CHECK(read(io, 3) == Given{ODR_OK, {4}});
+  CHECK(read(io, 10) == ReadResult{ODR_OK, {1, 2, 3, 4}});
+  CHECK(read(io, 3) == ReadResult{ODR_PARTIAL, {1, 2, 3}});
+  CHECK(read(io, 3) == ReadResult{ODR_OK, {4}});
   variables.node.objects.octets.Size = 0;
-  CHECK(read(io, 10) == Given{ODR_OK, {}});
+  CHECK(read(io, 10) == ReadResult{ODR_OK, {}});
 }
 
 TEST_CASE("OD_readOriginal: an empty stream is ODR_OK at its beginning") {
   Variables variables;
   variables.plain.data.clear();
   OD_IO_t io = variable(variables.node, 0x4000);
-  CHECK(read(io, 5) == Given{ODR_OK, {}});
+  CHECK(read(io, 5) == ReadResult{ODR_OK, {}});
   OD_IO_t domain = variable(variables.node, 0x2100, 0);
-  CHECK(read(domain, 5) == Given{ODR_OK, {}});
+  CHECK(read(domain, 5) == ReadResult{ODR_OK, {}});
 }
 
 TEST_CASE("OD_readOriginal: a stream of unknown length returns its length at its end") {
@@ -212,7 +212,7 @@ TEST_CASE("OD_readOriginal: a stream of unknown length returns its length at its
   variables.plain.knows_size = false;
   OD_IO_t io = variable(variables.node, 0x4000);
   CHECK(io.stream.dataLength == 0);
-  CHECK(read(io, 12) == Given{ODR_PARTIAL, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}});
+  CHECK(read(io, 12) == ReadResult{ODR_PARTIAL, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}});
   OD_size_t given = 0;
   std::uint8_t buffer[12] = {};
   CHECK(io.read(&io.stream, buffer, 12, &given) == ODR_OK);
@@ -239,23 +239,23 @@ TEST_CASE("OD_readOriginal: a stream open in an SDO transfer is ODR_DATA_DEV_STA
     const std::string object = index == 0x4000 ? "004000" : "014000";
     variables.node.rx("601#40" + object + "00000000");
     variables.node.trace();
-    CHECK(read(io, 5) == Given{ODR_DATA_DEV_STATE, {}});
+    CHECK(read(io, 5) == ReadResult{ODR_DATA_DEV_STATE, {}});
     CHECK(write(io, {1}) == ODR_DATA_DEV_STATE);
     variables.node.rx("601#80" + object + "00000408");
-    CHECK(read(io, 5) == Given{ODR_PARTIAL, {1, 2, 3, 4, 5}});
+    CHECK(read(io, 5) == ReadResult{ODR_PARTIAL, {1, 2, 3, 4, 5}});
   }
 }
 
 TEST_CASE("OD_readOriginal: SDO transfers of strings and domains and accesses have independent positions") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x2100, 15);
-  CHECK(read(io, 4) == Given{ODR_PARTIAL, {1, 2, 3, 4}});
+  CHECK(read(io, 4) == ReadResult{ODR_PARTIAL, {1, 2, 3, 4}});
   variables.node.ask("601#4000210F00000000", "581#4100210F0F000000");
-  CHECK(read(io, 4) == Given{ODR_PARTIAL, {5, 6, 7, 8}});
+  CHECK(read(io, 4) == ReadResult{ODR_PARTIAL, {5, 6, 7, 8}});
   variables.node.ask("601#6000000000000000", "581#0001020304050607");
-  CHECK(read(io, 4) == Given{ODR_PARTIAL, {9, 10, 11, 12}});
+  CHECK(read(io, 4) == ReadResult{ODR_PARTIAL, {9, 10, 11, 12}});
   variables.node.ask("601#7000000000000000", "581#1008090A0B0C0D0E");
-  CHECK(read(io, 4) == Given{ODR_OK, {13, 14, 15}});
+  CHECK(read(io, 4) == ReadResult{ODR_OK, {13, 14, 15}});
   variables.node.ask("601#6000000000000000", "581#0D0F000000000000");
 }
 
@@ -272,20 +272,20 @@ TEST_CASE("OD_readOriginal: a stream without Reset is read in one call") {
       nullptr};
   Fixture node(Setup().only_small().with({CO_KEY(0x4000, 0, CO_OBJ_____R_), &no_way_back.Type, CO_DATA(&node)}));
   OD_IO_t io = variable(node, 0x4000);
-  CHECK(read(io, 9) == Given{ODR_OK, Bytes(9, 0x44)});
-  CHECK(read(io, 4) == Given{ODR_PARTIAL, Bytes(4, 0x44)});
-  CHECK(read(io, 5) == Given{ODR_UNSUPP_ACCESS, {}});
+  CHECK(read(io, 9) == ReadResult{ODR_OK, Bytes(9, 0x44)});
+  CHECK(read(io, 4) == ReadResult{ODR_PARTIAL, Bytes(4, 0x44)});
+  CHECK(read(io, 5) == ReadResult{ODR_UNSUPP_ACCESS, {}});
   OD_rwRestart(&io.stream);
-  CHECK(read(io, 20) == Given{ODR_OK, Bytes(9, 0x44)});
+  CHECK(read(io, 20) == ReadResult{ODR_OK, Bytes(9, 0x44)});
 }
 
 TEST_CASE("OD_readOriginal: a value of more than 8 bytes is read in one call") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x4009);
   CHECK(io.stream.dataLength == 12);
-  CHECK(read(io, 12) == Given{ODR_OK, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}});
-  CHECK(read(io, 30) == Given{ODR_OK, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}});
-  CHECK(read(io, 11) == Given{ODR_UNSUPP_ACCESS, {}});
+  CHECK(read(io, 12) == ReadResult{ODR_OK, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}});
+  CHECK(read(io, 30) == ReadResult{ODR_OK, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}});
+  CHECK(read(io, 11) == ReadResult{ODR_UNSUPP_ACCESS, {}});
 }
 
 TEST_CASE("OD_readOriginal: TIME_OF_DAY is read in its six bytes [301:7.1.6.5]") {
@@ -295,9 +295,9 @@ TEST_CASE("OD_readOriginal: TIME_OF_DAY is read in its six bytes [301:7.1.6.5]")
   if (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) {
     std::reverse(expected.begin(), expected.end());
   }
-  CHECK(read(io, 6) == Given{ODR_OK, expected});
-  CHECK(read(io, 4) == Given{ODR_PARTIAL, Bytes(expected.begin(), expected.begin() + 4)});
-  CHECK(read(io, 4) == Given{ODR_OK, Bytes(expected.begin() + 4, expected.end())});
+  CHECK(read(io, 6) == ReadResult{ODR_OK, expected});
+  CHECK(read(io, 4) == ReadResult{ODR_PARTIAL, Bytes(expected.begin(), expected.begin() + 4)});
+  CHECK(read(io, 4) == ReadResult{ODR_OK, Bytes(expected.begin() + 4, expected.end())});
 }
 
 TEST_CASE("OD_readOriginal: Begin and End of a type are called only by SDO transfers") {

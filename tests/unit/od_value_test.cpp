@@ -107,7 +107,7 @@ TEST_CASE("OD_get_value, OD_set_value: another length is ODR_TYPE_MISMATCH for e
     }
     CHECK(data == Bytes(size + 40U, 0x5A));
     OD_IO_t io = one.io;
-    CHECK(read(io, size) == Given{ODR_OK, one.value});
+    CHECK(read(io, size) == ReadResult{ODR_OK, one.value});
   }
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("OD_get_value, OD_set_value: a value relative to the node-ID has it ad
   CHECK(*variable + 5 == after);
 }
 
-TEST_CASE("OD_get_value, OD_set_value: extensions are called, unless odOrig is set") {
+TEST_CASE("OD_get_value, OD_set_value: extensions are called unless odOrig is set") {
   std::uint32_t memory = 1;
   Fixture node(Setup().only_small().with({CO_KEY(0x2000, 0, CO_OBJ_____RW), OD_TUNSIGNED32, (CO_DATA)(&memory)}));
   Extended extended;
@@ -210,7 +210,7 @@ TEST_CASE("OD_get_value: a stream that ends before its length is ODR_DATA_SHORT"
 
 // OD_getPtr -----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("OD_getPtr: returns the variable of each object with memory, with or without a check of its length") {
+TEST_CASE("OD_getPtr: returns the variable of each object with memory if its length is checked or not") {
   Fixture node(Setup().only_small());
   const struct {
     std::uint16_t index;
@@ -235,7 +235,7 @@ TEST_CASE("OD_getPtr: returns the variable of each object with memory, with or w
   }
 }
 
-TEST_CASE("OD_getPtr: no memory, or a length of 0, is ODR_DEV_INCOMPAT") {
+TEST_CASE("OD_getPtr: an object without memory or with length 0 is ODR_DEV_INCOMPAT") {
   std::uint8_t byte = 0;
   CO_OBJ_DOM empty{0, 0, &byte};
   Fixture node(Setup()

@@ -206,7 +206,7 @@ TEST_CASE("OD_writeOriginal: a value relative to the node-ID is stored without i
   OD_IO_t io = variable(variables.node, 0x4006);
   CHECK(write(io, bytes_of(std::uint32_t{0x601})) == ODR_OK);
   CHECK(variables.relative == 0x600);
-  CHECK(read(io, 4) == Given{ODR_OK, bytes_of(std::uint32_t{0x601})});
+  CHECK(read(io, 4) == ReadResult{ODR_OK, bytes_of(std::uint32_t{0x601})});
 }
 
 TEST_CASE("OD_writeOriginal: each piece of a number writes the whole number and calls its type") {

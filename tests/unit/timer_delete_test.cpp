@@ -81,7 +81,7 @@ TEST_CASE("timer: an elapsed timer that has not run yet can be deleted") {
   }
 }
 
-TEST_CASE("timer: the only elapsed timer can be deleted, with nothing else in use") {
+TEST_CASE("timer: the only elapsed timer can be deleted while no other timer is in use") {
   Timers t;
   const std::int16_t id = t.create(10, 0, 1);
   t.elapse_only(10ms);

@@ -67,9 +67,9 @@ void sleep(std::uint64_t until) {
   const Quiet quiet;
   bool nothing_to_do = can_sleep(device_can, device, device_runs, until);
   nothing_to_do = can_sleep(peer_can, master, master_runs, until) && nothing_to_do;
-  const bool heard = test_listens && (is_pending || CORingCount(&peer_can.Received) != 0);
+  const bool last_mode = test_listens && (is_pending || CORingCount(&peer_can.Received) != 0);
   const std::uint64_t now = micros();
-  if (nothing_to_do && !heard && until > now) {
+  if (nothing_to_do && !last_mode && until > now) {
     GenericTimerDriver.Alarm(&patience, static_cast<std::uint32_t>(until - now));
     wait_for_interrupt();
   }

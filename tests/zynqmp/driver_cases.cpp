@@ -38,15 +38,15 @@ void overrun_of_fifo() {
   CHECK_EQUAL(CORingCount(&device_can.Received), short_queue);
   RX("085#1081110000000000");
   run_ms(1);
-  CHECK_EQUAL(told_of(device).can_events[CO_CAN_OVERRUN], 1);
-  CHECK_EQUAL(told_of(device).pdos, short_queue);
+  CHECK_EQUAL(record_of(device).can_events[CO_CAN_OVERRUN], 1);
+  CHECK_EQUAL(record_of(device).pdos, short_queue);
   CHECK_EQUAL(objects.received[0], short_queue);
   CHECK_EQUAL(COCanZynqmpLost(&device_can), 1 + fifo_frames - short_queue);
   RX("085#0000000000000000", 1100);
   send_many(1);
   run_ms(1);
   CHECK_EQUAL(objects.received[0], 1);
-  CHECK_EQUAL(told_of(device).can_events[CO_CAN_OVERRUN], 1);
+  CHECK_EQUAL(record_of(device).can_events[CO_CAN_OVERRUN], 1);
 }
 
 void overrun_of_queue() {
@@ -58,7 +58,7 @@ void overrun_of_queue() {
   CHECK_EQUAL(COCanZynqmpLost(&device_can), 5);
   RX("085#1081110000000000");
   run_ms(1);
-  CHECK_EQUAL(told_of(device).can_events[CO_CAN_OVERRUN], 1);
+  CHECK_EQUAL(record_of(device).can_events[CO_CAN_OVERRUN], 1);
   CHECK_EQUAL(objects.received[0], short_queue);
   RX("085#0000000000000000", 1100);
 }
@@ -71,7 +71,7 @@ void no_loss_in_bursts() {
     run(500);
     CHECK_EQUAL(objects.received[0], short_queue);
   }
-  CHECK_EQUAL(told_of(device).pdos, 100 * short_queue);
+  CHECK_EQUAL(record_of(device).pdos, 100 * short_queue);
   CHECK_EQUAL(COCanZynqmpLost(&device_can), 0);
 }
 
@@ -208,7 +208,7 @@ void reset_drops_frames() {
   }
   CHECK_EQUAL(CORingCount(&device_can.Received), 0);
   SILENT(20);
-  CHECK_EQUAL(told_of(device).pdos, 0);
+  CHECK_EQUAL(record_of(device).pdos, 0);
   send("205#07000000");
   run_ms(1);
   CHECK_EQUAL(objects.received[0], 7);
@@ -302,7 +302,7 @@ void remote_frames() {
   start_operational();
   send("205#R");
   run_ms(1);
-  CHECK_EQUAL(told_of(device).pdos, 0);
+  CHECK_EQUAL(record_of(device).pdos, 0);
   ASK("705#R", "705#05");
 }
 

@@ -122,8 +122,8 @@ void process_data() {
   start_nodes();
   start_all();
   exchange_pdos(1000);
-  expect_all(told_of(device).pdos);
-  expect_all(told_of(master).pdos);
+  expect_all(record_of(device).pdos);
+  expect_all(record_of(master).pdos);
   CHECK(objects.received[1] > 995);
   CHECK(~master_objects.received > 995);
   CHECK_EQUAL(COCanZynqmpLost(&device_can) + COCanZynqmpLost(&peer_can), 0);
@@ -138,8 +138,8 @@ void block_among_process_data() {
   exchange_pdos(1000);
   end_transfer();
   CHECK(memory_is_buffer(sizeof buffer));
-  expect_all(told_of(device).pdos);
-  expect_all(told_of(master).pdos);
+  expect_all(record_of(device).pdos);
+  expect_all(record_of(master).pdos);
 }
 
 void heartbeat() {
@@ -150,32 +150,32 @@ void heartbeat() {
   begin_download(CO_DEV(0x1017, 0), 2);
   end_transfer();
   run_ms(60);
-  CHECK_EQUAL(told_of(master).heard, CO_PREOP);
+  CHECK_EQUAL(record_of(master).last_mode, CO_PREOP);
   start_all();
   run_ms(60);
-  CHECK_EQUAL(told_of(master).heard, CO_OPERATIONAL);
+  CHECK_EQUAL(record_of(master).last_mode, CO_OPERATIONAL);
   CHECK_EQUAL(CONmtCommand(&master.Nmt, CO_NMT_COMMAND_STOP, device_id), CO_ERR_NONE);
   run_ms(60);
-  CHECK_EQUAL(told_of(master).heard, CO_STOP);
-  CHECK_EQUAL(told_of(master).heartbeat_events, 0);
+  CHECK_EQUAL(record_of(master).last_mode, CO_STOP);
+  CHECK_EQUAL(record_of(master).heartbeat_events, 0);
   hold(device_can);
   run_ms(160);
-  CHECK_EQUAL(told_of(master).heartbeat_events, 1);
+  CHECK_EQUAL(record_of(master).heartbeat_events, 1);
   release(device_can);
   run_ms(60);
   CHECK_EQUAL(CONmtGetHbEvents(&master.Nmt, device_id), 1);
-  CHECK_EQUAL(told_of(master).heard, CO_STOP);
+  CHECK_EQUAL(record_of(master).last_mode, CO_STOP);
 }
 
-void emergency() {
+void last_emergency() {
   start_nodes();
   COEmcySet(&device.Emcy, 0, nullptr);
   run_ms(1);
-  CHECK_EQUAL(told_of(master).emergency, CO_EMCY_CODE_VOL_INPUT_ERR);
+  CHECK_EQUAL(record_of(master).last_emergency, CO_EMCY_CODE_VOL_INPUT_ERR);
   COEmcyClr(&device.Emcy, 0);
   run_ms(1);
-  CHECK_EQUAL(told_of(master).emergency, CO_EMCY_CODE_NO_ERR);
-  CHECK_EQUAL(told_of(master).emergencies, 2);
+  CHECK_EQUAL(record_of(master).last_emergency, CO_EMCY_CODE_NO_ERR);
+  CHECK_EQUAL(record_of(master).emergencies, 2);
 }
 
 void reset_amid_transfer() {
@@ -187,7 +187,7 @@ void reset_amid_transfer() {
   CHECK_EQUAL(CONmtCommand(&master.Nmt, CO_NMT_COMMAND_RESET_COM, device_id), CO_ERR_NONE);
   CHECK(run_until(has_ended, 3000));
   CHECK(transfer_code != 0);
-  CHECK_EQUAL(told_of(device).resets[CO_RESET_COM], 1);
+  CHECK_EQUAL(record_of(device).resets[CO_RESET_COM], 1);
   CHECK_EQUAL(CONmtGetMode(&device.Nmt), CO_PREOP);
   round_trip(sizeof buffer);
 }
@@ -199,7 +199,7 @@ constexpr Case cases[] = {
     {"master: PDOs both ways in 1000 SYNC cycles of 1 ms, none lost", process_data},
     {"master: a block download among these", block_among_process_data},
     {"master: NMT commands, and the states that the heartbeat tells; missing while the controller is off", heartbeat},
-    {"master: EMCY consumer", emergency},
+    {"master: EMCY consumer", last_emergency},
     {"master: reset communication amid a block transfer, which is then repeated", reset_amid_transfer},
 };
 

@@ -47,7 +47,7 @@ void reset(const char* command, CO_NMT_RESET type) {
   send(command);
   RX("705#00");
   CHECK(mode() == CO_PREOP);
-  CHECK_EQUAL(told_of(device).resets[type], 1);
+  CHECK_EQUAL(record_of(device).resets[type], 1);
   ASK("605#4000100000000000", "585#4300100092010200");
 }
 void reset_node() { reset("000#8105", CO_RESET_NODE); }
@@ -88,7 +88,7 @@ void heartbeat_consumer() {
   send("701#05");
   SILENT(90);
   RX("085#3081110000010000", 20);  // 8130h, node 1
-  CHECK_EQUAL(told_of(device).heartbeat_events, 1);
+  CHECK_EQUAL(record_of(device).heartbeat_events, 1);
   CHECK_EQUAL(CONmtGetHbEvents(&device.Nmt, 1), 1);
   ASK("701#05", "085#0000000000010000");
 }

@@ -24,7 +24,7 @@ constexpr std::size_t timer_num = 8;
 const std::uint8_t device_name[] = "123456789";
 CO_OBJ_STR name = {0, device_name};
 CO_OBJ_DOM memory = {0, sizeof objects.memory, objects.memory};
-CO_HBCONS heard[2];
+CO_HBCONS last_mode[2];
 
 constexpr CO_OBJ device_od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0x00020192)},
@@ -39,8 +39,8 @@ constexpr CO_OBJ device_od[] = {
     {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&name)},
     {CO_KEY(0x1014, 0, CO_OBJ_DN__R_), CO_TEMCY_ID, (CO_DATA)(0x80)},
     {CO_KEY(0x1016, 0, CO_OBJ_D___R_), CO_THB_CONS, (CO_DATA)(2)},
-    {CO_KEY(0x1016, 1, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)(&heard[0])},
-    {CO_KEY(0x1016, 2, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)(&heard[1])},
+    {CO_KEY(0x1016, 1, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)(&last_mode[0])},
+    {CO_KEY(0x1016, 2, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)(&last_mode[1])},
     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&objects.heartbeat_time)},
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(4)},
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
@@ -123,7 +123,7 @@ CO_OD_CHECK(master_od);
 
 // Both ----------------------------------------------------------------------------------------------------------------
 
-Told told[2];
+CallbackRecord records[2];
 
 void serve_timers(void* node) { COTmrService(&static_cast<CO_NODE*>(node)->Tmr); }
 
@@ -141,7 +141,7 @@ void init(unsigned which, std::uint8_t id, const CO_OBJ* od, std::size_t entries
     add(alarms[1]);
   }
   CO_NODE& node = which == 0 ? device : master;
-  told[which] = {};
+  records[which] = {};
   extensions[which] = {};
   extensions[which].Size = sizeof(CO_NODE_EXT);
   extensions[which].Can = &ZynqmpCanDriver;
@@ -165,13 +165,13 @@ std::uint64_t locked_state = 0;
 
 }  // namespace
 
-Told& told_of(const CO_NODE& node) { return told[&node == &device ? 0 : 1]; }
+CallbackRecord& record_of(const CO_NODE& node) { return records[&node == &device ? 0 : 1]; }
 
 CO_OBJ* device_object(std::uint16_t index, std::uint8_t sub) { return CODictFind(&device.Dict, CO_DEV(index, sub)); }
 
 void init_device() {
   objects = {};
-  for (CO_HBCONS& entry : heard) {
+  for (CO_HBCONS& entry : last_mode) {
     entry = {};
   }
   init(0, device_id, device_od, std::size(device_od));
@@ -196,13 +196,13 @@ void COTmrLock(void) {
 }
 void COTmrUnlock(void) { asm volatile("msr daif, %0" : : "r"(zynqmp::locked_state) : "memory"); }
 
-void CONodeCanChange(CO_NODE* node, CO_CAN_EVENT event) { ++zynqmp::told_of(*node).can_events[event]; }
-void CONmtResetRequest(CO_NMT* nmt, CO_NMT_RESET reset) { ++zynqmp::told_of(*nmt->Node).resets[reset]; }
-void CONmtHbConsEvent(CO_NMT* nmt, std::uint8_t) { ++zynqmp::told_of(*nmt->Node).heartbeat_events; }
-void CONmtHbConsChange(CO_NMT* nmt, std::uint8_t, CO_MODE mode) { zynqmp::told_of(*nmt->Node).heard = mode; }
-void COPdoUpdate(CO_RPDO* pdo) { ++zynqmp::told_of(*pdo->Node).pdos; }
+void CONodeCanChange(CO_NODE* node, CO_CAN_EVENT event) { ++zynqmp::record_of(*node).can_events[event]; }
+void CONmtResetRequest(CO_NMT* nmt, CO_NMT_RESET reset) { ++zynqmp::record_of(*nmt->Node).resets[reset]; }
+void CONmtHbConsEvent(CO_NMT* nmt, std::uint8_t) { ++zynqmp::record_of(*nmt->Node).heartbeat_events; }
+void CONmtHbConsChange(CO_NMT* nmt, std::uint8_t, CO_MODE mode) { zynqmp::record_of(*nmt->Node).last_mode = mode; }
+void COPdoUpdate(CO_RPDO* pdo) { ++zynqmp::record_of(*pdo->Node).pdos; }
 void COEmcyReceived(CO_NODE* node, std::uint8_t, std::uint16_t code, std::uint8_t, const std::uint8_t*) {
-  ++zynqmp::told_of(*node).emergencies;
-  zynqmp::told_of(*node).emergency = code;
+  ++zynqmp::record_of(*node).emergencies;
+  zynqmp::record_of(*node).last_emergency = code;
 }
 }

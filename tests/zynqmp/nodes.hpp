@@ -49,19 +49,19 @@ struct MasterObjects {
 extern MasterObjects master_objects;
 
 /// Number of callbacks of a node, and their last arguments, since its initialisation.
-struct Told {
+struct CallbackRecord {
   unsigned can_events[CO_CAN_EVENT_NUM];
   unsigned heartbeat_events;
-  CO_MODE heard;  ///< last NMT state of a monitored node
+  CO_MODE last_mode;  ///< last NMT state of a monitored node
   unsigned resets[CO_RESET_NUM];
   unsigned pdos;
   unsigned emergencies;
-  std::uint16_t emergency;  ///< error code of the last EMCY
+  std::uint16_t last_emergency;  ///< error code of the last EMCY
 };
-Told& told_of(const CO_NODE& node);
+CallbackRecord& record_of(const CO_NODE& node);
 
-/// Initialise a node at its controller: its variables have their defaults, its Told is empty. The node stays in
-/// CO_INIT.
+/// Initialise a node at its controller: its variables have their defaults, its CallbackRecord is empty. The node stays
+/// in CO_INIT.
 void init_device();
 void init_master();
 

@@ -18,7 +18,7 @@ void rpdo_asynchronous() {
   send("205#78563412");
   run_ms(1);
   CHECK_EQUAL(objects.received[0], 0x12345678);
-  CHECK_EQUAL(told_of(device).pdos, 1);
+  CHECK_EQUAL(record_of(device).pdos, 1);
 }
 
 void rpdo_synchronous() {

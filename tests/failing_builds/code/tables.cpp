@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables with everything that firmware puts into Data must lie in read-only memory from the beginning.
+// Dictionaries with each kind of value of CO_OBJ.Data. The test checks in the object file that the compiler has placed
+// them in read-only memory, without initialisation at the start of the program.
 #include <cstdint>
 
 #include "co_core.h"
