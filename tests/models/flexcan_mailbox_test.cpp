@@ -322,7 +322,8 @@ TEST_CASE("flexcan mailbox: IRMQ selects individual masks, or RXMGMASK, RX14MASK
     out(flexcan::rxmgmask, 0x1FC00000);
     out(flexcan::rx14mask, 0x1F000000);
     out(flexcan::rx15mask, 0);
-    station.listen(13, standard_frame(0x100));
+    station.set_word(13, 1, 0x100 << 18 | 0x3FFFF);  // standard frames do not use the low bits
+    station.set_word(13, 0, Station::empty << 24);
     station.listen(14, standard_frame(0x200));
     station.listen(15, standard_frame(0x300));
     station.start();
@@ -330,6 +331,8 @@ TEST_CASE("flexcan mailbox: IRMQ selects individual masks, or RXMGMASK, RX14MASK
     station.receive(standard_frame(0x23F));
     station.receive(standard_frame(0x7FF));
     CHECK(station.flags() == (is_individual ? 0 : 0xE000));
+    station.receive(standard_frame(0x100));
+    CHECK((station.flags() & 0x2000) == 0x2000);
     clear(0xE000);
     station.receive(extended_frame(0x100 << 18));  // IDE is compared without a mask
     CHECK(station.flags() == 0);
@@ -558,7 +561,7 @@ TEST_CASE("flexcan FIFO: the fifth message warns, the seventh overflows [registe
 }
 
 TEST_CASE("flexcan FIFO: format A compares RTR, IDE and the identifier [Rx FIFO structure]") {
-  FifoStation station(0x123 << 19);
+  FifoStation station(0x123 << 19 | 0x7FFFE);  // standard frames do not use the low bits
   station.set_filter(1, 1U << 30 | 0x12345678 << 1);
   station.set_filter(2, 1U << 31 | 0x124 << 19);
   station.start();
@@ -573,7 +576,7 @@ TEST_CASE("flexcan FIFO: format A compares RTR, IDE and the identifier [Rx FIFO 
 }
 
 TEST_CASE("flexcan FIFO: format B has two filters in an element [Rx FIFO structure]") {
-  FifoStation station(0x123 << 19 | 0x124 << 3, 1);
+  FifoStation station(0x123 << 19 | 0x124 << 3 | 0x00070007, 1);
   station.set_filter(1, 0x40000000 | (0x12345678U >> 15) << 16 | 0x8000 | 0x125 << 3);
   station.start();
   station.receive(standard_frame(0x124));
