@@ -6,7 +6,10 @@
 #include "bxcan_rates.hpp"
 #include "co_can_bxcan.h"
 #include "co_can_fdcan.h"
+#include "co_can_flexcan.h"
 #include "fdcan_rates.hpp"
+#include "flexcan.hpp"
+#include "flexcan_rates.hpp"
 #include "m_can.hpp"
 #include "support/notation.hpp"
 
@@ -18,6 +21,7 @@ constexpr std::uintptr_t fdcan_address[] = {0x40006400, 0x40006800};
 constexpr std::uintptr_t fdcan_ram = 0x4000A400;
 constexpr std::uintptr_t mcan_address[] = {0x4000A000, 0x4000A400};
 constexpr std::uintptr_t mcan_ram = 0x4000AC00;
+constexpr std::uintptr_t flexcan_address[] = {0x02090000, 0x02094000};
 
 // Models of several kinds can be on one bus: their addresses must not overlap.
 constexpr std::uintptr_t distance_of_kinds = 0x100000;
@@ -138,6 +142,56 @@ class MCanController : public Controller {
   CO_CAN_FDCAN can_{};
 };
 
+// FlexCAN2 of i.MX 6 with the receive FIFO, FlexCAN3 of i.MX 8M Plus with message buffers that receive.
+class FlexcanController : public Controller {
+ public:
+  FlexcanController(CanWire& wire, Kind kind, const ControllerOptions& options)
+      : model(wire, address(kind, options.number), model_options(kind, options)), kind_(kind), frames_(options.frames) {
+    driver = &FlexcanCanDriver;
+    can_.Registers = pointer<CO_FLEXCAN_REGISTERS>(model.address());
+    can_.MailboxNum = 64;
+    can_.Receive = kind == Kind::flexcan2 ? CO_CAN_FLEXCAN_FIFO : CO_CAN_FLEXCAN_MAILBOXES;
+    can_.Rates = rates_;
+    can_.RateNum = 1;
+    can_.Frames = frames_.data();
+    can_.FrameNum = options.frames;
+    can_.Recovery = options.recovery;
+    can_.Ecc = kind == Kind::flexcan3;
+    can_.Loopback = options.loopback;
+    rates_[0] = co::flexcan_rate(Bench::baud, co::find_bit_timing(options.clock, Bench::baud, co::flexcan_limits));
+  }
+
+  void* context() override { return &can_; }
+  bool has_interrupt() const override { return model.interrupt(); }
+  void call_interrupt() override { COCanFlexcanInterrupt(&can_); }
+  bool has_frames() const override { return COCanFlexcanHasFrames(&can_); }
+  std::uint32_t lost() const override { return COCanFlexcanLost(&can_); }
+  CO_CAN_ERROR_COUNTERS errors() const override { return COCanFlexcanErrors(&can_); }
+  CanNode& node() override { return model.node(); }
+  RegisterModel& registers() override { return model; }
+  std::uint32_t bit_rate() const override { return model.bit_rate(); }
+  unsigned sample_point() const override { return model.sample_point(); }
+  void set_timing(std::uint32_t baud, std::uint32_t timing) override { rates_[0] = {baud, timing, 0}; }
+  unsigned fifo_places() const override { return kind_ == Kind::flexcan2 ? 6 : 28; }
+
+  FlexCan model;
+
+ private:
+  static std::uintptr_t address(Kind kind, unsigned number) {
+    return distance_of_kinds * static_cast<unsigned>(kind) + flexcan_address[number];
+  }
+  static FlexCan::Options model_options(Kind kind, const ControllerOptions& options) {
+    FlexCan::Options result = kind == Kind::flexcan2 ? FlexCan::imx6() : FlexCan::imx8mp();
+    result.clock = options.clock;
+    return result;
+  }
+
+  CO_CAN_FLEXCAN_RATE rates_[1]{};
+  Kind kind_;
+  std::vector<CO_IF_FRM> frames_;
+  CO_CAN_FLEXCAN can_{};
+};
+
 bool is_error(const std::string& text) { return text.size() > 8 && text[8] == '#' && text[0] == '2'; }
 
 }  // namespace
@@ -147,6 +201,8 @@ std::string name_of(Kind kind) {
     case Kind::bxcan: return "bxCAN";
     case Kind::fdcan: return "FDCAN";
     case Kind::mcan: return "M_CAN";
+    case Kind::flexcan2: return "FlexCAN2";
+    case Kind::flexcan3: return "FlexCAN3";
   }
   return "";
 }
@@ -237,6 +293,8 @@ Controller& Bench::add(Kind kind, const ControllerOptions& options) {
   if (kind == Kind::bxcan) {
     BxCan* const master = options.number == 0 ? nullptr : &static_cast<BxcanController&>(*controllers_[0]).model;
     controllers_.push_back(std::make_unique<BxcanController>(wire, options, master));
+  } else if (is_flexcan(kind)) {
+    controllers_.push_back(std::make_unique<FlexcanController>(wire, kind, options));
   } else {
     const unsigned words = kind == Kind::fdcan ? 2 * MCan::fixed_words : MCan::configurable_words;
     const std::uintptr_t at =

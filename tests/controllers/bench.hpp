@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file bench.hpp
-/// The drivers for bxCAN and M_CAN on the models of their controllers (tests/models), on one simulated bus:
+/// The drivers for bxCAN, M_CAN and FlexCAN on the models of their controllers (tests/models), on one simulated bus:
 ///
 ///     Bench bench;                                  // 500 kbit/s
 ///     Controller& can = bench.add(Kind::bxcan);     // Init, Enable
@@ -30,9 +30,11 @@ namespace test {
 
 class Bench;
 
-/// Controllers: bxCAN, M_CAN with fixed message memory (FDCAN), M_CAN with configurable message memory.
-enum class Kind : std::uint8_t { bxcan, fdcan, mcan };
-inline constexpr Kind all_kinds[] = {Kind::bxcan, Kind::fdcan, Kind::mcan};
+/// Controllers: bxCAN, M_CAN with fixed message memory (FDCAN), M_CAN with configurable message memory, FlexCAN2 with
+/// the receive FIFO, FlexCAN3 with message buffers that receive.
+enum class Kind : std::uint8_t { bxcan, fdcan, mcan, flexcan2, flexcan3 };
+inline constexpr Kind all_kinds[] = {Kind::bxcan, Kind::fdcan, Kind::mcan, Kind::flexcan2, Kind::flexcan3};
+inline bool is_flexcan(Kind kind) { return kind == Kind::flexcan2 || kind == Kind::flexcan3; }
 std::string name_of(Kind kind);
 
 struct BxcanOptions {

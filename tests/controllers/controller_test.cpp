@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Behaviour that the drivers for bxCAN and M_CAN have in common, on the models of the controllers.
+// Behaviour that the drivers for bxCAN, M_CAN and FlexCAN have in common, on the models of the controllers.
 #include <algorithm>
 #include <random>
 
@@ -7,6 +7,7 @@
 #include "bit_timing.hpp"
 #include "bxcan_rates.hpp"
 #include "fdcan_rates.hpp"
+#include "flexcan_rates.hpp"
 #include "support/notation.hpp"
 
 namespace {
@@ -19,10 +20,10 @@ constexpr std::uint64_t recovery_bits = 128 * 11;
 
 // Disturbs each frame until the controller is in bus-off.
 void drive_to_bus_off(Bench& bench, Controller& can) {
-  REQUIRE(can.takes("7FF#0102"));
   for (unsigned n = 0; n < 40 && !can.node().is_bus_off(); ++n) {
     const unsigned before = can.node().tec();
     bench.wire.disturb_frames(1, 20, Disturb::set_dominant, 12);
+    REQUIRE((n != 0 || can.takes("7FF#0102")));
     REQUIRE(bench.run_until([&] { return can.node().tec() != before || can.node().is_bus_off(); }));
   }
   REQUIRE(can.node().is_bus_off());
@@ -46,6 +47,17 @@ void queue_frames(Bench& bench, unsigned number, std::uint32_t id) {
   }
 }
 
+co::BitTimingLimits limits_of(Kind kind) {
+  return kind == Kind::bxcan ? co::bxcan_limits : is_flexcan(kind) ? co::flexcan_limits : co::fdcan_limits;
+}
+
+std::uint32_t timing_word(Kind kind, std::uint32_t baud, const co::BitTiming& timing) {
+  if (is_flexcan(kind)) {
+    return co::flexcan_rate(baud, timing).Timing;
+  }
+  return kind == Kind::bxcan ? co::bxcan_rate(baud, timing).Timing : co::fdcan_rate(baud, timing).Timing;
+}
+
 // Initialisation ------------------------------------------------------------------------------------------------------
 
 TEST_CASE("controllers: exchange frames at each bit rate of CiA 301 that the clock allows") {
@@ -56,8 +68,7 @@ TEST_CASE("controllers: exchange frames at each bit rate of CiA 301 that the clo
         CAPTURE(name_of(kind));
         CAPTURE(clock);
         CAPTURE(baud);
-        const bool is_bxcan = kind == Kind::bxcan;
-        const co::BitTiming timing = co::find_bit_timing(clock, baud, is_bxcan ? co::bxcan_limits : co::fdcan_limits);
+        const co::BitTiming timing = co::find_bit_timing(clock, baud, limits_of(kind));
         if (timing.prescaler == 0 || timing.rate(clock) != baud) {
           continue;
         }
@@ -68,7 +79,7 @@ TEST_CASE("controllers: exchange frames at each bit rate of CiA 301 that the clo
         options.clock = clock;
         options.starts = false;
         Controller& can = bench.add(kind, options);
-        can.set_timing(baud, is_bxcan ? co::bxcan_rate(baud, timing).Timing : co::fdcan_rate(baud, timing).Timing);
+        can.set_timing(baud, timing_word(kind, baud, timing));
         can.init();
         can.enable(baud);
         CHECK(can.bit_rate() == baud);
@@ -347,6 +358,9 @@ TEST_CASE("controllers: report frames that were lost because the receive FIFO wa
       for (unsigned n = 0; n < places; ++n) {
         expected.push_back(notation(to_driver(standard_frame(0x123, {static_cast<std::uint8_t>(n)}))));
       }
+      if (kind == Kind::flexcan3) {  // the newest frame overwrites the last one
+        expected.back() = notation(to_driver(standard_frame(0x123, {static_cast<std::uint8_t>(places + 1)})));
+      }
       CHECK(data_frames(all) == expected);
       CHECK(can.lost() == round + 1);
       CHECK(!can.has_frames());
@@ -605,7 +619,8 @@ TEST_CASE("controllers: transmit by priority beside random traffic, each frame o
       can.filter({});
       if (is_preempted) {
         bench.interrupt_everywhere();
-        bench.wire.accesses_per_bit = 7;
+        // FlexCAN3 reads message buffers one by one: with fewer accesses, its loop misses the intermission.
+        bench.wire.accesses_per_bit = kind == Kind::flexcan3 ? 10 : 7;
       }
       Random random(static_cast<unsigned>(kind) + 10);
       Sender sender(bench, can);
@@ -836,7 +851,7 @@ TEST_CASE("controllers: bus-off lasts until Reset, if the application recovers")
     can.reset();
     CHECK(can.send("123#") <= 0);
     CHECK(bench.run_until([&] { return !can.node().is_bus_off(); }));
-    CHECK(bench.wire.now() - start >= recovery_bits);
+    CHECK(bench.wire.now() - start >= (is_flexcan(kind) ? 11 : recovery_bits));  // FlexCAN counts from bus-off on
     CHECK(can.read_all() == Texts{"20000300#0000000000000000"});
     CHECK(can.errors().Transmit == 0);
     bench.run(200);

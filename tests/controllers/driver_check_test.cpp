@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver check for ports (tests/driver_check) on the drivers for bxCAN and M_CAN.
+// The driver check for ports (tests/driver_check) on the drivers for bxCAN, M_CAN and FlexCAN.
 #include "bench.hpp"
 #include "co_driver_check.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A device and its master on two controllers of one bus: SDO, PDO, EMCY, bus-off and recovery through the drivers for
-// bxCAN and M_CAN.
+// bxCAN, M_CAN and FlexCAN.
 #include <array>
 #include <iterator>
 
@@ -134,11 +134,9 @@ struct Pair {
   Kind device;
   Kind master;
 };
-constexpr Pair pairs[] = {{Kind::bxcan, Kind::bxcan},
-                          {Kind::fdcan, Kind::fdcan},
-                          {Kind::mcan, Kind::mcan},
-                          {Kind::bxcan, Kind::fdcan},
-                          {Kind::mcan, Kind::bxcan}};
+constexpr Pair pairs[] = {{Kind::bxcan, Kind::bxcan},      {Kind::fdcan, Kind::fdcan}, {Kind::mcan, Kind::mcan},
+                          {Kind::bxcan, Kind::fdcan},      {Kind::mcan, Kind::bxcan},  {Kind::flexcan2, Kind::flexcan2},
+                          {Kind::flexcan3, Kind::flexcan2}};
 
 ControllerOptions options_of(unsigned number, CO_CAN_RECOVERY recovery) {
   ControllerOptions options;

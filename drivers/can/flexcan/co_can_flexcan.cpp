@@ -5,7 +5,7 @@
 
 #include "../report.hpp"
 #include "../transmit.hpp"
-#include "flexcan.hpp"
+#include "flexcan_controller.hpp"
 #include "flexcan_filters.hpp"
 
 namespace co::flexcan {

@@ -2,7 +2,7 @@
 /// \file co_can_flexcan.h
 /// Driver for FlexCAN, the CAN controller of NXP's i.MX 6, 8 and RT, S32K and Kinetis (docs/drivers/flexcan.md), used
 /// for classic CAN frames: one context for each controller. C and C++, bare metal or in a task of an RTOS.
-/// Run in QEMU on the controllers of an i.MX 6, not on silicon.
+/// Tested on a register model and in QEMU on the controllers of an i.MX 6, not on silicon.
 ///
 ///     static const CO_CAN_FLEXCAN_RATE rates[] = {CO_CAN_FLEXCAN_RATE_OF(40000000, 500000, 16)};
 ///     static CO_IF_FRM frames[32];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Transmission through three message buffers, and reception.
 #include "../report.hpp"
-#include "flexcan.hpp"
+#include "flexcan_controller.hpp"
 
 namespace co::flexcan {
 namespace {
@@ -107,7 +107,7 @@ void receive_mailboxes(CO_CAN_FLEXCAN& can) {
     }
     Batch batch;
     batch.number = 0;
-    for (unsigned n = layout.receive; n < layout.end; ++n) {
+    for (unsigned n = layout.receive; n < layout.transmit; ++n) {
       if ((flags & (std::uint32_t{1} << n)) != 0) {
         read_mailbox(can, n, batch);
       }

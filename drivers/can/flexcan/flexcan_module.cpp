@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Modes of the controller, its configuration and filters.
-#include "flexcan.hpp"
+#include "flexcan_controller.hpp"
 
 namespace co::flexcan {
 namespace {
@@ -43,7 +43,7 @@ std::uint32_t control2(const CO_CAN_FLEXCAN& can) {
 std::uint32_t module_configuration(const CO_CAN_FLEXCAN& can) {
   return CO_FLEXCAN_MCR_FRZ | CO_FLEXCAN_MCR_HALT | CO_FLEXCAN_MCR_IRMQ | CO_FLEXCAN_MCR_AEN |
          (uses_fifo(can) ? CO_FLEXCAN_MCR_RFEN : 0) | (can.Loopback ? 0 : CO_FLEXCAN_MCR_SRXDIS) |
-         (can.RejectsAll ? CO_FLEXCAN_MCR_REJECT : 0) | (layout_of(can).end - 1);
+         (can.RejectsAll ? CO_FLEXCAN_MCR_REJECT : 0) | (layout_of(can).transmit + CO_CAN_MAILBOXES - 1);
 }
 
 // Clears the write protection of MECR, and NCEFAFRZ: an error in memory must not stop the controller.
@@ -54,6 +54,14 @@ void configure_ecc(const CO_CAN_FLEXCAN& can) {
   write(regs.Mecr, read(regs.Mecr) & ~CO_FLEXCAN_MECR_NCEFAFRZ);
   write(regs.Mecr, read(regs.Mecr) | CO_FLEXCAN_MECR_ECRWRDIS);
   write(regs.Ctrl2, control2(can));
+}
+
+// Deactivates a message buffer that does not receive. After a remote frame was sent, its buffer receives: its mask
+// admits no data frame, or the answer would be lost there.
+void deactivate(CO_FLEXCAN_REGISTERS& regs, unsigned n) {
+  write(regs.Iflag1, std::uint32_t{1} << n);
+  write(regs.Mailbox[n].Control, CO_FLEXCAN_TX_INACTIVE);
+  write(regs.Rximr[n], whole_mask);
 }
 
 // Makes a message buffer that receives free again. Its received identifier differs from its filter only in bits that
@@ -88,7 +96,7 @@ void write_fifo_filters(CO_CAN_FLEXCAN& can, const Filters& all) {
 void write_mailbox_filters(const CO_CAN_FLEXCAN& can, const Filters& all) {
   CO_FLEXCAN_REGISTERS& regs = *can.Registers;
   const Layout layout = layout_of(can);
-  for (unsigned n = layout.receive; n < layout.end; ++n) {
+  for (unsigned n = layout.receive; n < layout.transmit; ++n) {
     CO_FLEXCAN_MAILBOX& mailbox = regs.Mailbox[n];
     write(mailbox.Control, CO_FLEXCAN_RX_INACTIVE);
     if (all.number == 0) {
@@ -108,12 +116,12 @@ void write_mailbox_filters(const CO_CAN_FLEXCAN& can, const Filters& all) {
 Layout layout_of(const CO_CAN_FLEXCAN& can) {
   const unsigned buffers = can.MailboxNum < most_buffers ? can.MailboxNum : most_buffers;
   if (!uses_fifo(can)) {
-    return {0, 0, 1, other_buffers, buffers};
+    return {0, 0, 1, buffers - CO_CAN_MAILBOXES};
   }
   const unsigned possible = (buffers - buffers_of_fifo - other_buffers) / 2;
   const unsigned steps = possible < most_steps ? possible : most_steps;
   const unsigned reserved = buffers_of_fifo + 2 * steps;
-  return {steps, reserved, reserved + 1, reserved + other_buffers, reserved + other_buffers};
+  return {steps, reserved, reserved + 1, reserved + 1};
 }
 
 void soft_reset(CO_FLEXCAN_REGISTERS& regs) {
@@ -167,7 +175,6 @@ void prepare_memory(const CO_CAN_FLEXCAN& can) {
     return;
   }
   write(regs.Ctrl2, control2(can) | CO_FLEXCAN_CTRL2_WRMFRZ);
-  write(regs.Rxfir, 0);
   clear(regs, CO_FLEXCAN_MEMORY_FIRST, CO_FLEXCAN_MEMORY_END);
   clear(regs, can.EccFirst, can.EccEnd);
   write(regs.Ctrl2, control2(can));
@@ -175,21 +182,18 @@ void prepare_memory(const CO_CAN_FLEXCAN& can) {
   configure_ecc(can);
 }
 
-// The masks of the transmit buffers admit no frame but a remote frame of another node: after a remote frame was sent,
-// its buffer would receive the answer.
 void configure(const CO_CAN_FLEXCAN& can) {
   CO_FLEXCAN_REGISTERS& regs = *can.Registers;
   const Layout layout = layout_of(can);
   write(regs.Mcr, module_configuration(can));
   write(regs.Ctrl2, control2(can));
   write(regs.Rxfgmask, can.GlobalMask);
-  for (unsigned n = layout.reserved; n < layout.transmit + CO_CAN_MAILBOXES; ++n) {
-    write(regs.Iflag1, std::uint32_t{1} << n);
-    write(regs.Mailbox[n].Control, CO_FLEXCAN_TX_INACTIVE);
-    write(regs.Rximr[n], whole_mask);
-  }
-  for (unsigned n = layout.receive; n < layout.end; ++n) {
+  deactivate(regs, layout.reserved);
+  for (unsigned n = layout.receive; n < layout.transmit; ++n) {
     release(regs.Mailbox[n]);
+  }
+  for (unsigned n = 0; n < CO_CAN_MAILBOXES; ++n) {
+    deactivate(regs, layout.transmit + n);
   }
 }
 
@@ -204,7 +208,7 @@ Capacity capacity_of(const CO_CAN_FLEXCAN& can) {
   if (uses_fifo(can)) {
     return {buffers_of_fifo * (layout.steps + 1), layout.reserved};
   }
-  const unsigned half = (layout.end - layout.receive) / 2;
+  const unsigned half = (layout.transmit - layout.receive) / 2;
   return {half, half};
 }
 

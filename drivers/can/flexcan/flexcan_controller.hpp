@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file flexcan.hpp
+/// \file flexcan_controller.hpp
 /// Operations on a FlexCAN controller, for its driver.
-#ifndef CO_DRIVERS_FLEXCAN_HPP_
-#define CO_DRIVERS_FLEXCAN_HPP_
+#ifndef CO_DRIVERS_FLEXCAN_CONTROLLER_HPP_
+#define CO_DRIVERS_FLEXCAN_CONTROLLER_HPP_
 
 #include <cstdint>
 
@@ -17,14 +17,13 @@ namespace co::flexcan {
 inline std::uint32_t read(const volatile std::uint32_t& reg) { return lexican_reg_read(&reg); }
 inline void write(volatile std::uint32_t& reg, std::uint32_t value) { lexican_reg_write(&reg, value); }
 
-/// Use of the message buffers. Those of the FIFO come first. The first other one is reserved (erratum 5829); three for
-/// transmission follow, then those that receive.
+/// Use of the message buffers. Those of the FIFO come first. The first other one is reserved (erratum 5829); those that
+/// receive follow, then three for transmission.
 struct Layout {
   unsigned steps;     ///< CTRL2.RFFN
   unsigned reserved;  ///< inactive
-  unsigned transmit;  ///< first of three
-  unsigned receive;   ///< first one; end: none
-  unsigned end;       ///< 16…32
+  unsigned receive;   ///< first one; with the FIFO there are none
+  unsigned transmit;  ///< first of three; the end of those that receive
 };
 
 inline bool uses_fifo(const CO_CAN_FLEXCAN& can) { return can.Receive == CO_CAN_FLEXCAN_FIFO; }
@@ -33,7 +32,7 @@ Layout layout_of(const CO_CAN_FLEXCAN& can);
 
 /// Returns the interrupt bits of the message buffers that receive.
 inline std::uint32_t receive_bits(const Layout& layout) {
-  return static_cast<std::uint32_t>((std::uint64_t{1} << layout.end) - (std::uint64_t{1} << layout.receive));
+  return static_cast<std::uint32_t>((std::uint64_t{1} << layout.transmit) - (std::uint64_t{1} << layout.receive));
 }
 
 /// \name Module
