@@ -129,6 +129,11 @@ TEST_CASE("flexcan: a pending mailbox is kept in Freeze mode") {
   station.send(8, standard_frame(1));
   station.wire.advance(100);
   CHECK(station.wire.sent() == 0);
+  out(flexcan::mcr, station.modes);
+  REQUIRE(station.wire.advance_until([] { return (in(flexcan::esr1)&0x80) != 0; }, 30));  // IDLE
+  out(flexcan::mcr, Station::freeze | station.modes);                                     // before the start of frame
+  station.wire.advance(100);
+  CHECK(station.wire.sent() == 0);
   station.start();
   station.wire.advance(100);
   CHECK(station.wire.sent() == 1);

@@ -370,6 +370,11 @@ TEST_CASE("mcp2515: bit rate, sample point and requirements of bit timing [5.0]"
   station.write(0x29, 0x80);  // 1 + 1 + 1 + 4
   station.start();
   CHECK(station.faults() == 1);
+  station.start(configuration);
+  station.write(0x29, 0xA5);
+  station.write(0x2A, 0xC0);  // SJW 4 is not less than PHSEG2
+  station.start();
+  CHECK(station.faults() == 1);
 }
 
 TEST_CASE("mcp2515: a controller with another bit rate than the bus does not take part") {
