@@ -108,8 +108,8 @@ TEST_CASE("codict check --disable: every rule is accepted; for an unknown one si
   CHECK(check("--disable gen-limits --disable suppression-unused bit_pattern.eds").status == 0);
   const Ran wrong = check("--disable od-value-octl octal.eds");
   CHECK(wrong.status == 2);
-  CHECK(wrong.err == "codict: there is no rule od-value-octl: od-value-octal?\n");
-  CHECK(check("--disable weather octal.eds").err == "codict: there is no rule weather: codict explain names all\n");
+  CHECK(wrong.err == "codict: unknown rule od-value-octl; did you mean od-value-octal?\n");
+  CHECK(check("--disable weather octal.eds").err == "codict: unknown rule weather; codict explain lists all\n");
 }
 
 TEST_CASE("codict check --profile: a device profile is checked on request") {
@@ -278,7 +278,7 @@ TEST_CASE("codict check --baseline: known findings are not reported, also at ano
   const Ran moved = run("--all --baseline base.json a.eds");
   CHECK(moved.status == 1);
   CHECK(moved.out.find("a.eds:9:10: warning: ") != std::string::npos);
-  CHECK(moved.err == "codict: a.eds: no longer found, but in the baseline: 2\ncodict: 2 warnings\n");
+  CHECK(moved.err == "codict: a.eds: findings of the baseline that no longer occur: 2\ncodict: 2 warnings\n");
   CHECK(run("--baseline base.json --disable od-value-octal a.eds").err.empty());
 }
 
@@ -357,7 +357,7 @@ TEST_CASE("codict explain: prints one rule or all rules") {
   CHECK(all == test::bytes_of(LEXICAN_SOURCE_DIR "/tools/codict/docs/rules.md"));
   CHECK(all.find(one.substr(0, one.size() - link.size())) != std::string::npos);
   CHECK(explain("").out.find("\nod-limit                   error    ") != std::string::npos);
-  CHECK(explain("od-limt").err == "codict: there is no rule od-limt: od-limit?\n");
+  CHECK(explain("od-limt").err == "codict: unknown rule od-limt; did you mean od-limit?\n");
   CHECK(explain("od-limt").status == 2);
   const Json json = Json::parse(explain("--json gen-access").out);
   CHECK(json.at("schema") == "codict-explain-1");

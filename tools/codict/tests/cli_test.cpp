@@ -33,8 +33,8 @@ TEST_CASE("codict: without a command or with an unknown one the usage is printed
   CHECK(run("check --nonsense octal.eds").status == 2);
   const Ran wrong = run("nonsense");
   CHECK(wrong.out.empty());
-  CHECK(wrong.err == "codict: there is no command nonsense: codict --help names all\n");
-  CHECK(run("chek octal.eds").err == "codict: there is no command chek: check?\n");
+  CHECK(wrong.err == "codict: unknown command nonsense; codict --help lists all\n");
+  CHECK(run("chek octal.eds").err == "codict: unknown command chek; did you mean check?\n");
   CHECK(has(run("--nonsense").err, "--help"));
   CHECK(has(run("check --nonsense octal.eds").err, "--nonsense"));
 }
@@ -122,7 +122,7 @@ TEST_CASE("codict completion zsh: the script has all commands, options and words
   CHECK(script.out.substr(0, script.out.find('\n')) == "#compdef codict");
   CHECK(has(script.out, "    'check:Say what is wrong or odd in descriptions'\n"));
   CHECK(has(script.out,
-            "'*--level[Least severity that is shown and counts\\: note, warning, error]:ENUM:(note warning error)'"));
+            "'*--level[Lowest severity that is reported\\: note, warning, error]:ENUM:(note warning error)'"));
   CHECK(has(script.out, "'*-o[Directory of NAME_od.h and NAME_od.c or .cpp]:TEXT:_files'"));
   if (test::run_shell("command -v zsh").status == 0) {
     CHECK(test::run_shell("'" LEXICAN_CODICT_PROGRAM "' completion zsh | zsh -n /dev/stdin").status == 0);
@@ -234,7 +234,7 @@ TEST_CASE("codict check: a rule can be disabled by its name") {
   CHECK(check("--disable od-value-octal --disable od-value-octal-digit octal.eds").status == 0);
   const Ran unknown = check("--disable od-value-hexal octal.eds");
   CHECK(unknown.status == 2);
-  CHECK(unknown.err == "codict: there is no rule od-value-hexal: od-value-octal?\n");
+  CHECK(unknown.err == "codict: unknown rule od-value-hexal; did you mean od-value-octal?\n");
 }
 
 TEST_CASE("codict check: the status is that of the worst file") {
@@ -385,7 +385,7 @@ TEST_CASE("codict convert: values that the other format cannot express are repor
   const Ran told = run("convert xdd/device10.xdd -o " + directory / "valve.eds");
   CHECK(told.status == 0);
   CHECK(told.err ==
-        "codict: xdd/device10.xdd: left out: 1 configured values (2000h), 2 denotations (2000h, 2003h), 1 "
+        "codict: xdd/device10.xdd: not in the output: 1 configured values (2000h), 2 denotations (2000h, 2003h), 1 "
         "commissioning, 2 labels (2000h de, 2002h:1 en), 1 descriptions (1000h en), 2 units (2000h, 2002h:2), 2 bit "
         "rates (auto-baudRate, defaultValue), 2 features (selfStartingDevice, flyingMaster), 4 texts of the identity "
         "(vendorText, deviceFamily, productFamily, …), 2 numbers of dynamic channels, 2 allowed values (2000h 0, 2000h "
@@ -543,11 +543,11 @@ TEST_CASE("codict: control characters are printed as question marks, except in a
 }
 
 TEST_CASE("codict get: a missing object or key is reported") {
-  CHECK(run("get octal.eds 0x2005").err == "codict: octal.eds: there is no object 2005\n");
+  CHECK(run("get octal.eds 0x2005").err == "codict: octal.eds: object 2005 does not exist\n");
   CHECK(run("get octal.eds Weather").err == "codict: octal.eds: neither an object nor a section: Weather\n");
   CHECK(run("get octal.eds 0x2000 high").err == "codict: octal.eds: [2000] has no HighLimit\n");
   CHECK(run("get compact.dcf 0x2000:5 name").err ==
-        "codict: compact.dcf: 2000:05 has no section of its own: it is in compact storage\n");
+        "codict: compact.dcf: 2000:05 has no section: it is in compact storage\n");
   CHECK(run("get octal.eds 0x2000 high").status == 2);
 }
 
@@ -582,7 +582,7 @@ TEST_CASE("codict set: a value with errors is not written without --force") {
   CHECK(ran.err == path + ":29:14: error: 2000h 'One': '256' does not fit UNSIGNED8 (0 to 255) [od-value-range]\n" +
                        "    DefaultValue=256\n                 ^~~\n" +
                        "    fix: correct the value, or use a larger data type\n" +
-                       "codict: nothing is written: --force writes it nevertheless\n");
+                       "codict: new errors, no file was written; --force writes it nevertheless\n");
   CHECK(bytes_of(path) == before);
   CHECK(run("set --force '" + path + "' 0x2000 default=256").status == 0);
   CHECK(bytes_of(path) != before);

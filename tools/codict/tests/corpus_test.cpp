@@ -43,10 +43,10 @@ class Places {
       begins_.insert(text.span.begin);
     }
   }
-  void add(const std::vector<Kept>& all) {
-    for (const Kept& kept : all) {
-      add(kept.text);
-      add(kept.children);
+  void add(const std::vector<OpaquePart>& all) {
+    for (const OpaquePart& part : all) {
+      add(part.text);
+      add(part.children);
     }
   }
   void add(const Entry& entry) {
@@ -56,7 +56,7 @@ class Places {
              &*entry.upload_file, &*entry.download_file, &*entry.parameter_reference, &*entry.multiplier}) {
       add(*text);
     }
-    for (const std::vector<Label>* labels : {&entry.unit->words.labels, &entry.words->descriptions}) {
+    for (const std::vector<Label>* labels : {&entry.unit->texts.labels, &entry.texts->descriptions}) {
       for (const Label& label : *labels) {
         add(label.text);
       }

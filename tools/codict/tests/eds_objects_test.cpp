@@ -63,8 +63,8 @@ TEST_CASE("EDS: Factor, Unit and Description of python-canopen are read") {
   const Reading eds("python_canopen.eds");
   CHECK(eds.device.dialect == "python-canopen");
   CHECK(eds.at(0x2000).multiplier->text == "0.1");
-  CHECK(eds.at(0x2000).unit->words.labels.at(0).text.text == "mV");
-  CHECK(eds.at(0x2000).words->descriptions.at(0).text.text == "Between the phases");
+  CHECK(eds.at(0x2000).unit->texts.labels.at(0).text.text == "mV");
+  CHECK(eds.at(0x2000).texts->descriptions.at(0).text.text == "Between the phases");
   CHECK(eds.found() == "29:1 eds-dialect\n30:1 eds-dialect\n31:1 eds-dialect\n");
 }
 

@@ -38,7 +38,7 @@ TEST_CASE("codict set: an output with the suffix of another format is refused") 
   const Directory directory;
   const Ran xml = run("set xdd/device10.xdd 2000 default=1 -o " + directory / "device.eds");
   CHECK(xml.status == 2);
-  CHECK(has(xml.err, "device.eds: xdd/device10.xdd is of another format, which convert makes\n"));
+  CHECK(has(xml.err, "device.eds: xdd/device10.xdd has another format; use convert to change the format\n"));
   CHECK(run("set drive.eds 2000 default=1 -o " + directory / "drive.xdd").status == 2);
   CHECK(run("set drive.eds 2000 default=1 -o " + directory / "drive.json").status == 2);
   CHECK_FALSE(std::filesystem::exists(directory / "drive.xdd"));
@@ -50,7 +50,7 @@ TEST_CASE("codict: a failure message contains the request") {
   const Directory directory;
   CHECK(has(run("get xdd/device10.xdd FileInfo").err, "no object: FileInfo; only an EDS or DCF has sections\n"));
   CHECK(has(run("merge drive.eds --set version=1.2 -o " + directory / "drive.eds").err,
-            "--set version=1.2: there is no object 100A:00\n"));
+            "--set version=1.2: object 100A:00 does not exist\n"));
   CHECK(has(run("merge drive.eds --set nonsense=1 -o " + directory / "drive.eds").err,
             "--set nonsense=1: neither a word (vendor,"));
 }
@@ -110,7 +110,7 @@ TEST_CASE("codict check: findings in JSON have their line and a caret") {
   CHECK(ran.status == 1);
   CHECK(has(ran.out, ":2:104: error: 2000h 'x': '300' does not fit UNSIGNED8 (0 to 255) [od-value-range]\n"));
   CHECK(has(ran.out, std::string(103, ' ') + "    ^~~\n"));
-  CHECK_FALSE(has(run("check --disable json-type " + path).err, "there is no rule"));
+  CHECK_FALSE(has(run("check --disable json-type " + path).err, "unknown rule"));
 }
 
 namespace {
@@ -163,11 +163,12 @@ TEST_CASE("codict merge: input that cannot be merged is reported and nothing is 
   const std::string out = directory / "out.eds";
   CHECK(run("merge drive.eds missing.eds -o " + out).status == 2);
   CHECK(run("merge drive.eds -o " + out + " --set serial=5").err ==
-        "codict: --set serial=5: there is no object 1018:04\n");
+        "codict: --set serial=5: object 1018:04 does not exist\n");
   CHECK(run("merge drive.eds -o " + out + " --set colour=5").status == 2);
   CHECK(run("merge drive.eds -o " + out + " --set 1018:1").status == 2);
   CHECK(run("merge xdd/device10.xdd -o " + out).err ==
-        "codict: xdd/device10.xdd: the base is an EDS or DCF: convert makes one of it, set changes values of an XDD\n");
+        "codict: xdd/device10.xdd: the base must be an EDS or DCF; use convert first, or set to change values of an "
+        "XDD\n");
   const Ran wrong = run("merge drive.eds -o " + out + " --set 2000.default=70000");
   CHECK(wrong.status == 1);
   CHECK(has(wrong.err, "od-value-range"));
@@ -187,7 +188,8 @@ TEST_CASE("codict fmt: a file is rewritten in its normal form; --check returns w
   CHECK(Json::parse(run("fmt --check --json section_form.eds").out).at("changed") == true);
   CHECK(Json::parse(run("fmt --json " + path).out).at("changed") == false);
   CHECK(run("fmt drive.eds --check").status == 0);
-  CHECK(run("fmt xdd/device10.xdd --check").err == "codict: xdd/device10.xdd: only an EDS or DCF has a normal form\n");
+  CHECK(run("fmt xdd/device10.xdd --check").err ==
+        "codict: xdd/device10.xdd: not an EDS or DCF; fmt has no normal form for other formats\n");
   CHECK(run("fmt missing.eds").status == 2);
 }
 
@@ -304,7 +306,7 @@ TEST_CASE("codict set: an element of compact storage gets a list entry and the l
   const Ran refused = run("set " + path + " 2000:5 access=ro");
   CHECK(refused.status == 2);
   CHECK(refused.err ==
-        "codict: " + path + ": 2000:05 is in compact storage, which has only name, value and denotation of its own\n");
+        "codict: " + path + ": 2000:05 is in compact storage, where only name, value and denotation can be set\n");
   CHECK(run("set " + path + " 2000:5 value=70000000000").status == 1);
 }
 
@@ -442,7 +444,7 @@ TEST_CASE("codict convert: each edition of CiA 311 is converted to the other one
   CHECK(has(run("convert xdd/device10.xdd --to xdc11 -o -").out, "http://www.canopen.org/xml/1.1"));
   const Ran ran = run("convert xdd/device10.xdd --to xdd11 --strict-loss -o " + directory / "no.xdd");
   CHECK(ran.status == 1);
-  CHECK(has(ran.err, "left out: "));
+  CHECK(has(ran.err, "not in the output: "));
   CHECK_FALSE(std::filesystem::exists(directory / "no.xdd"));
 }
 

@@ -59,7 +59,7 @@ TEST_CASE("codict gen: from a description with errors nothing is generated witho
   const Ran ran = run(directory, "bad.eds -o new");
   CHECK(ran.status == 1);
   CHECK(ran.err.find("[od-limit]\n") != std::string::npos);
-  CHECK(ran.err.find("codict: nothing is written: --force") != std::string::npos);
+  CHECK(ran.err.find("codict: errors, no file was written; --force") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(directory / "new"));
   CHECK(run(directory, "bad.eds -o new --check").status == 1);
   const Ran forced = run(directory, "bad.eds -o new --force");
@@ -130,7 +130,7 @@ TEST_CASE("codict gen: the output lists storage groups with sub-indices, and app
       ran.out ==
       "storage group DRIVE: 2 entries, 40 bytes; stored by 1010h sub 1 (Save all parameters), restored by no sub-index "
       "of 1011h\n"
-      "to be defined by the application (--stubs FILE writes first versions):\n"
+      "to be defined by the application (--stubs FILE writes stubs):\n"
       "extern CO_OBJ_DOM small_2002_0;  // 2002h sub 0: Firmware, DOMAIN wo\n");
   CHECK(run(directory, small + " -o new --check").out.empty());
   const auto json = nlohmann::json::parse(run(directory, small + " -o new --json").out);
@@ -150,7 +150,7 @@ TEST_CASE("codict gen: --stubs writes files once and never overwrites them") {
   const Ran missing = run(directory, small + " -o new --stubs stubs.c");
   CHECK(missing.status == 0);
   CHECK(missing.err ==
-        "codict: stubs.c: the file exists and is not changed; small_2002_0 is missing in it (2002h sub 0: Firmware, "
+        "codict: stubs.c: the file exists and is not changed; it does not define small_2002_0 (2002h sub 0: Firmware, "
         "DOMAIN wo)\n");
   CHECK(bytes_of(directory / "stubs.c") == "\n");
 }
@@ -176,12 +176,12 @@ TEST_CASE("codict gen: --store gives a storage group its sub-index of 1010h") {
 TEST_CASE("codict gen: --verify reports missing programs before anything is written") {
   const test::Directory directory;
   const std::pair<const char*, const char*> cases[] = {
-      {"", "codict does not contain: name its sources, --stack DIR"},
+      {"", "--verify needs the sources of the stack; give their directory, --stack DIR"},
       {"--stack .", ".: no sources of Lexican"},
       {"--stack '" LEXICAN_SOURCE_DIR "' --preset huge", "--preset huge: no such file"},
       {"--stack '" LEXICAN_SOURCE_DIR "' --preset ../presets/slave", "no such file"},
-      {"--stack '" LEXICAN_SOURCE_DIR "' -D '=5'", "-D =5: the form is NAME=VALUE"},
-      {"--stack '" LEXICAN_SOURCE_DIR "' -D 'A B=5'", "-D A B=5: the form is NAME=VALUE"},
+      {"--stack '" LEXICAN_SOURCE_DIR "' -D '=5'", "-D =5: not of the form NAME=VALUE"},
+      {"--stack '" LEXICAN_SOURCE_DIR "' -D 'A B=5'", "-D A B=5: not of the form NAME=VALUE"},
   };
   for (const auto& [arguments, text] : cases) {
     CAPTURE(arguments);

@@ -15,7 +15,7 @@
 #include "reading.hpp"
 
 using namespace lexican::codict;
-using convert::Replaced;
+using convert::ReplacedValue;
 
 namespace {
 
@@ -27,7 +27,7 @@ struct Merging {
   }
 
   std::string bytes;
-  std::vector<Replaced> replaced;
+  std::vector<ReplacedValue> replaced;
   bool is_possible = false;
 };
 

@@ -38,7 +38,7 @@ TEST_CASE("codict network: findings have their place in the plan; nothing is wri
   const Ran ran = test::run_codict(directory / "", "network plan.yaml -o out");
   CHECK(ran.status == 1);
   CHECK(has(ran.err, "error: drive_x and drive_y have the node-ID 2 [net-node-id]\n    drive_y:\n    ^"));
-  CHECK(has(ran.err, "codict: nothing is written"));
+  CHECK(has(ran.err, "codict: errors, no file was written"));
   CHECK_FALSE(std::filesystem::exists(directory / "out"));
   CHECK(test::run_codict(directory / "", "network plan.yaml -o out --force").status == 1);
   CHECK(std::filesystem::exists(directory / "out/io.bin"));
@@ -71,7 +71,7 @@ TEST_CASE("codict network: an input is not overwritten") {
   CHECK(ran.status == 0);
   const Ran again = test::run_codict(directory / "", "network drive_x.dcf drive_y.dcf io.dcf master.dcf -o .");
   CHECK(again.status == 2);
-  CHECK(has(again.err, "drive_x.dcf: an input would be overwritten"));
+  CHECK(has(again.err, "drive_x.dcf: an output would overwrite an input"));
 }
 
 TEST_CASE("codict network: JSON is printed for programs") {

@@ -75,7 +75,7 @@ TEST_CASE("codict new: existing files are reported and nothing is written") {
   test::write_bytes(directory / "README.md", "mine");
   const Ran refused = run_in(directory, "new . --profile 301");
   CHECK(refused.status == 2);
-  CHECK(has(refused.err, "README.md exists; nothing is written"));
+  CHECK(has(refused.err, "README.md exists; no file was written"));
   CHECK(test::bytes_of(directory / "README.md") == "mine");
   CHECK_FALSE(exists(directory, "CMakeLists.txt"));
   CHECK_FALSE(exists(directory, "generated"));

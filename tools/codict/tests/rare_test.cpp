@@ -51,7 +51,7 @@ TEST_CASE("XDD: a parameter of several objects describes each of them, and is fr
       R"(<parameter uniqueID="P" access="readWrite"><label lang="en">Shared</label><UINT/>
 <defaultValue value="5"/></parameter>)"));
   for (const Entry* entry : {&reading.at(0x2000), &reading.at(0x2001, 1), &reading.at(0x2002)}) {
-    CHECK(text_in(entry->words->labels, "en") == "Shared");
+    CHECK(text_in(entry->texts->labels, "en") == "Shared");
     CHECK(entry->default_value.text == "5");
   }
   CHECK(reading.device.parameters.empty());

@@ -147,7 +147,7 @@ TEST_CASE("fold: findings that differ only in numbers and quoted names are folde
   const std::vector<Finding> alike = {finding_of("'a' is 5, not 2000h", {1, 2}),
                                       finding_of("'b' is 66, not 2001h", {3, 4}),
                                       finding_of("'b' was 66, not 2001h", {5, 6})};
-  const std::vector<Folded> folded = fold(alike);
+  const std::vector<FoldedFindings> folded = fold(alike);
   REQUIRE(folded.size() == 2);
   CHECK(folded.front().first == &alike.front());
   CHECK(folded.front().more == 1);

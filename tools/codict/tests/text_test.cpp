@@ -79,7 +79,7 @@ TEST_CASE("equal findings are folded") {
   findings.add(first_rule, {1, 2}, "same");
   findings.add(first_rule, {2, 2}, "other");
   findings.sort();
-  const std::vector<Folded> folded = fold(findings.all());
+  const std::vector<FoldedFindings> folded = fold(findings.all());
   REQUIRE(folded.size() == 3);
   CHECK(folded[0].first->span.begin == 1);
   CHECK(folded[0].more == 1);

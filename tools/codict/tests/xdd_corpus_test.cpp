@@ -42,13 +42,13 @@ class Places {
       begins_.insert(text.span.begin);
     }
   }
-  void add(const std::vector<Kept>& all) {
-    for (const Kept& kept : all) {
+  void add(const std::vector<OpaquePart>& all) {
+    for (const OpaquePart& kept : all) {
       add(kept.text);
       add(kept.children);
     }
   }
-  void add(const Words& words) {
+  void add(const LabelGroup& words) {
     for (const auto* labels : {&words.labels, &words.descriptions}) {
       for (const Label& label : *labels) {
         add(label.text);
@@ -58,7 +58,7 @@ class Places {
   void add(const Allowed& allowed) {
     for (const AllowedValue& value : allowed.values) {
       add(value.value);
-      add(value.words);
+      add(value.texts);
     }
     for (const Range& range : allowed.ranges) {
       add(range.minimum);
@@ -83,9 +83,9 @@ class Places {
              &*entry.template_id}) {
       add(*text);
     }
-    add(entry.words);
+    add(entry.texts);
     add(entry.denotations);
-    add(entry.unit->words);
+    add(entry.unit->texts);
     add(entry.allowed);
     add(entry.node);
     for (const Property& property : *entry.properties) {

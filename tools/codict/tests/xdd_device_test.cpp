@@ -30,7 +30,7 @@ TEST_CASE("XDD: file, profile and identity are read") {
   CHECK(device.communication_profile.class_id.text == "CommunicationNetwork");
   CHECK(device.identity.vendor_number.value == 0x123);
   CHECK(device.identity.vendor_text.text == "Makers of valves");
-  CHECK(device.identity.family_words.labels.size() == 2);
+  CHECK(device.identity.family_texts.labels.size() == 2);
   CHECK(device.identity.product_number.value == 0x42);
   CHECK(device.identity.order_codes.size() == 2);
   CHECK(device.identity.versions.at(1).type.text == "HW");
@@ -95,12 +95,12 @@ TEST_CASE("XDD: an object has the values of its parameter") {
   CHECK(meaning(mode.substitute_value) == "1");
   CHECK(mode.denotation->text == "mode");
   CHECK(mode.denotations->labels.at(0).language == "en");
-  CHECK(text_in(mode.words->labels, "de") == "Betriebsart");
-  CHECK(mode.unit->words.labels.at(0).text.text == "step");
-  CHECK(mode.allowed->values.at(1).words.labels.at(0).text.text == "on");
+  CHECK(text_in(mode.texts->labels, "de") == "Betriebsart");
+  CHECK(mode.unit->texts.labels.at(0).text.text == "step");
+  CHECK(mode.allowed->values.at(1).texts.labels.at(0).text.text == "on");
   CHECK(meaning(mode.allowed->ranges.at(0).step) == "1");
   CHECK(mode.conditional_support->at(0).text == "P_1000");
-  CHECK(reading.at(0x1000).words->descriptions.at(0).text.text == "What it is,\nin two lines.");
+  CHECK(reading.at(0x1000).texts->descriptions.at(0).text.text == "What it is,\nin two lines.");
 }
 
 TEST_CASE("XDD: the only range of a parameter gives the limits of the object") {
@@ -126,7 +126,7 @@ TEST_CASE("XDD: types, templates and groups are read") {
   CHECK(device.types[0].kind == TypeDefinition::Kind::array);
   CHECK(device.types[0].bounds.at(0).upper.value == 2);
   CHECK(device.types[1].members.at(0).type.code == 7);
-  CHECK(device.types[2].values.at(1).words.labels.at(1).text.text == "an");
+  CHECK(device.types[2].values.at(1).texts.labels.at(1).text.text == "an");
   CHECK(device.types[3].type.code == 6);
   CHECK(device.templates.at(0).parameter_id->text == "TPL_RO");
   CHECK(device.allowed_templates.at(0).allowed.values.size() == 2);
@@ -168,7 +168,7 @@ TEST_CASE("XDD: a BITSTRING with a default is an OCTET_STRING, without one a DOM
 TEST_CASE("XDD: known and unused elements are kept without a finding") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   bool has_led = false;
-  for (const Kept& kept : reading.device.others) {
+  for (const OpaquePart& kept : reading.device.others) {
     has_led = has_led || (kept.name == "DeviceManager" &&
                           kept.children.at(0).children.at(0).children.at(0).children.at(0).text.text == "bicolor");
   }

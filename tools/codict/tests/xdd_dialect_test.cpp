@@ -35,7 +35,7 @@ TEST_CASE("maxon: parameters with an index become objects") {
   CHECK(motor.subs.size() == 3);
   CHECK(reading.at(0x3001, 1).data_type.value == 5);
   CHECK(meaning(reading.at(0x3001, 1).default_value) == "3");
-  CHECK(reading.at(0x3001, 1).allowed->values.at(1).words.labels.at(0).text.text == "On");
+  CHECK(reading.at(0x3001, 1).allowed->values.at(1).texts.labels.at(0).text.text == "On");
   CHECK(reading.at(0x3001, 2).access.value == Access::rw);
   CHECK(meaning(reading.at(0x3001, 2).high_limit) == "5000");
   CHECK(reading.at(0x3001, 2).unit->multiplier.text == "1");
@@ -61,7 +61,7 @@ TEST_CASE("_project.xml of CANopenNode: memory types and empty elements of an AR
   CHECK(reading.device.features.bit_rates.at(0).kbit == 10);
   CHECK(reading.device.dummies.at(0).type == 2);
   CHECK(reading.at(0x1000).node->storage_group.value == "ROM");
-  CHECK(reading.at(0x1000).words->descriptions.at(0).text.text == "What it is.");
+  CHECK(reading.at(0x1000).texts->descriptions.at(0).text.text == "What it is.");
   CHECK(reading.at(0x1003, 2).data_type.value == 7);
   CHECK(reading.at(0x1003, 2).access.value == Access::ro);
   CHECK(reading.at(0x6000).node->disabled->value);
@@ -81,7 +81,7 @@ TEST_CASE(".nxdd: several devices in one file are read") {
 TEST_CASE("XDD: another namespace or none is reported; profiles may have any order") {
   const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   CHECK(reading.has("xdd-namespace"));
-  CHECK(reading.at(0x2000).words->labels.at(0).text.text == "Value");
+  CHECK(reading.at(0x2000).texts->labels.at(0).text.text == "Value");
   CHECK(XmlReading("<ISO15745ProfileContainer/>").found() == "1 xdd-namespace\n");
 }
 

@@ -41,13 +41,13 @@ class Dump {
       line(name, label.language + "|" + label.text.text + "|" + *label.dictionary + "|" + *label.uri);
     }
   }
-  void words(const Words& words) {
+  void words(const LabelGroup& words) {
     labels("label", words.labels);
     labels("description", words.descriptions);
   }
-  void kept(const std::vector<Kept>& others) {
+  void kept(const std::vector<OpaquePart>& others) {
     std::vector<std::string> each;
-    for (const Kept& other : others) {
+    for (const OpaquePart& other : others) {
       Dump inner;
       inner.path_ = path_ + "kept " + other.name + "/";
       inner.text("", other.text);
@@ -67,7 +67,7 @@ class Dump {
     for (const AllowedValue& one : allowed.values) {
       in("allowed", [&] {
         value("value", one.value);
-        words(one.words);
+        words(one.texts);
         text("offset", one.offset);
         text("multiplier", one.multiplier);
       });
@@ -110,13 +110,13 @@ class Dump {
     number("flags", *entry.flags);
     text("denotation", entry.denotation);
     text("id", entry.parameter_id);
-    words(entry.words);
+    words(entry.texts);
     in("denotations", [&] { words(entry.denotations); });
     if (entry.parameter_id->is_given) {
       type(entry.type);
     }
     in("unit", [&] {
-      words(entry.unit->words);
+      words(entry.unit->texts);
       text("multiplier", entry.unit->multiplier);
       text("uri", entry.unit->uri);
     });
@@ -157,7 +157,7 @@ class Dump {
   }
   void group(const Group& group) {
     in("group " + group.id.text, [&] {
-      words(group.words);
+      words(group.texts);
       text("access", group.kind_of_access);
       for (const Text& parameter : group.parameters) {
         text("parameter", parameter);
@@ -172,7 +172,7 @@ class Dump {
     in("type " + definition.id.text, [&] {
       line("kind", std::to_string(static_cast<int>(definition.kind)));
       text("name", definition.name);
-      words(definition.words);
+      words(definition.texts);
       type(definition.type);
       text("size", definition.size);
       for (const auto& bounds : definition.bounds) {
@@ -182,7 +182,7 @@ class Dump {
         in("member", [&] {
           text("name", member.name);
           text("id", member.id);
-          words(member.words);
+          words(member.texts);
           type(member.type);
           text("size", member.size);
           kept(member.others);
@@ -190,7 +190,7 @@ class Dump {
       }
       for (const AllowedValue& one : definition.values) {
         value("value", one.value);
-        words(one.words);
+        words(one.texts);
       }
       kept(definition.others);
     });
@@ -218,7 +218,7 @@ void dump_identity(Dump& out, const Identity& identity) {
         &identity.instance_name}) {
     out.line("identity", text->text);
   }
-  for (const Words* words : {&identity.vendor_words, &identity.family_words, &identity.product_words}) {
+  for (const LabelGroup* words : {&identity.vendor_texts, &identity.family_texts, &identity.product_texts}) {
     out.in("identity", [&] { out.words(*words); });
   }
   for (const Text& code : identity.order_codes) {

@@ -53,11 +53,11 @@ TEST_CASE("XDD edit: the value of a parameter and the text of a label are change
   const Entry& mode = reading.at(0x2000);
   Edits edits;
   REQUIRE(reading.document.set_text(mode.actual_value->span, "0", edits));
-  REQUIRE(reading.document.set_text(mode.words->labels[1].text.span, "Art & <Weise>", edits));
+  REQUIRE(reading.document.set_text(mode.texts->labels[1].text.span, "Art & <Weise>", edits));
   const std::string expected = replaced(replaced(bytes, "<actualValue value=\"1\"", "<actualValue value=\"0\""),
                                         ">Betriebsart<", ">Art &amp; &lt;Weise&gt;<");
   CHECK(with(reading, edits) == expected);
-  CHECK(XmlReading(expected).at(0x2000).words->labels[1].text.text == "Art & <Weise>");
+  CHECK(XmlReading(expected).at(0x2000).texts->labels[1].text.text == "Art & <Weise>");
 }
 
 TEST_CASE("XDD edit: every text of an object can be written back at its place") {

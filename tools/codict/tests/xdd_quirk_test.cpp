@@ -46,7 +46,7 @@ TEST_CASE("XDD quirk: dataType overrides BITSTRING") {
 
 TEST_CASE("XDD quirk: an unknown element is kept with its content") {
   const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
-  const Kept& own = reading.at(0x2001).others.at(0);
+  const OpaquePart& own = reading.at(0x2001).others.at(0);
   CHECK(own.name == "own");
   CHECK(own.children.at(0).text.text == "text");
   CHECK(own.children.at(0).children.at(0).name == "@a");
@@ -207,8 +207,8 @@ TEST_CASE("XDD quirk: character references, CDATA and other line ends are read")
       "<![CDATA[1 < 2]]></label><description>x\r\ny &lt;</description></CANopenObject>");
   const Entry& entry = reading.at(0x2000);
   CHECK(entry.name.text == "aA&\xC3\xA4&unknown;&#xD800; b");
-  CHECK(entry.words->labels.at(0).text.text == "1 < 2");
-  CHECK(entry.words->descriptions.at(0).text.text == "x\ny <");
+  CHECK(entry.texts->labels.at(0).text.text == "1 < 2");
+  CHECK(entry.texts->descriptions.at(0).text.text == "x\ny <");
 }
 
 TEST_CASE("XDD quirk: characters that are not UTF-8 are read with and without a declaration") {

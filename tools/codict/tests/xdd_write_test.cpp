@@ -78,7 +78,7 @@ TEST_CASE("XDD write: parameters, labels and dates of an EDS are written in the 
       const Entry& other = again.at(index, sub_index);
       CAPTURE(index);
       CHECK(other.name.text == entry.name.text);
-      CHECK(text_in(other.words->labels, "en") == entry.name.text);
+      CHECK(text_in(other.texts->labels, "en") == entry.name.text);
       CHECK(other.data_type.value == entry.data_type.value);
       if (entry.access.value != Access::unknown) {
         CHECK(other.access.value == entry.access.value);
@@ -140,11 +140,11 @@ TEST_CASE("XDD write: markup characters and line ends are kept; those that XML f
   const std::string text = "a<b>&\"c'\td\ne\rf";
   Object& object = *reading.device.find(0x1000);
   object.name.text = text;
-  object.words.edit().labels.at(0).text.text = text;
+  object.texts.edit().labels.at(0).text.text = text;
   object.default_value.text = std::string("a\0b\x01", 4);
   const XmlReading again(xdd::write(reading.device, xdd::Edition::v11));
   CHECK(again.at(0x1000).name.text == text);
-  CHECK(again.at(0x1000).words->labels.at(0).text.text == text);
+  CHECK(again.at(0x1000).texts->labels.at(0).text.text == text);
   CHECK(again.at(0x1000).default_value.text ==
         "a\xEF\xBF\xBD"
         "b\xEF\xBF\xBD");
@@ -166,7 +166,7 @@ TEST_CASE("XDD write: the implied sub-index 0 of CiA 306 is written with its typ
 
 TEST_CASE("XDD write: names that XML does not allow are changed to valid ones") {
   XmlReading reading = test::fixture_xml("device10.xdd");
-  Kept element{"a <b/>", {"x", {}, true}, {}, {}};
+  OpaquePart element{"a <b/>", {"x", {}, true}, {}, {}};
   element.children.push_back({"@1=\"", {"y", {}, true}, {}, {}});
   reading.device.others.push_back(element);
   const std::string written = xdd::write(reading.device, xdd::Edition::v10);

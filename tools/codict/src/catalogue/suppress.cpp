@@ -30,7 +30,7 @@ const std::vector<const Rule*>& suppression_rules() {
 namespace {
 
 // The suppressions of one rule, and the places of its findings, sorted for binary search: a file may have many of both.
-struct Wanted {
+struct RuleSuppressions {
   std::vector<Suppression> suppressions;  // those with a scope, sorted by its beginning
   std::vector<std::uint32_t> reach;       // reach[n]: highest end of the scopes 0…n
   std::vector<std::uint32_t> places;
@@ -59,14 +59,14 @@ struct Wanted {
   }
 };
 
-using ByRule = std::map<const Rule*, Wanted>;
+using ByRule = std::map<const Rule*, RuleSuppressions>;
 
 std::string hint_for(std::string_view id) {
   const std::vector<std::string_view> near = similar(id, all_ids());
   return near.empty() ? "codict explain lists all rules" : "did you mean " + std::string(near.front()) + "?";
 }
 
-void add_unused(const Wanted& wanted, Findings& findings) {
+void add_unused(const RuleSuppressions& wanted, Findings& findings) {
   for (const Suppression& suppression : wanted.suppressions) {
     if (!wanted.is_used(suppression)) {
       findings.add(rules::suppression_unused, suppression.rule, "comment suppresses nothing", "remove it");

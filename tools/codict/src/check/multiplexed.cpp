@@ -24,10 +24,9 @@ bool has_list(const Device& device, bool is_transmit) {
 }
 
 void check_type(const Pdo& pdo, Findings& findings) {
-  constexpr std::uint64_t event_manufacturer = 254;
   const Entry* const type = pdo.parameter(2);
   if (type != nullptr && value_in_force(*type).is_integer() &&
-      value_in_force(*type).integer.bits() < event_manufacturer) {
+      value_in_force(*type).integer.bits() < transmission_type::event_manufacturer) {
     findings.add(rules::multiplexed_type, value_in_force(*type).span,
                  fmt::format("multiplexed PDO with transmission type {}", value_in_force(*type).integer.bits()),
                  "write 254 or 255");

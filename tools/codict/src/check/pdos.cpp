@@ -140,15 +140,10 @@ void check_mapping(const Device& device, const Pdo& pdo, Findings& findings) {
 
 // Communication parameters -----------------------------------------------------------------------------------------
 
-constexpr std::uint64_t last_synchronous = 240;
-constexpr std::uint64_t remote_synchronous = 252;
-constexpr std::uint64_t remote = 253;
-constexpr std::uint64_t event_manufacturer = 254;
-constexpr std::uint64_t event_profile = 255;
-
 bool is_type(std::uint64_t type, bool is_transmit) {
-  const bool is_remote = type == remote_synchronous || type == remote;
-  return type <= last_synchronous || type == event_manufacturer || type == event_profile || (is_remote && is_transmit);
+  const bool is_remote = type == transmission_type::remote_synchronous || type == transmission_type::remote;
+  return type <= transmission_type::last_synchronous || type == transmission_type::event_manufacturer ||
+         type == transmission_type::event_profile || (is_remote && is_transmit);
 }
 
 void check_time(const Pdo& pdo, std::uint8_t sub_index, const char* what, Findings& findings) {
@@ -173,7 +168,8 @@ void check_communication(const Pdo& pdo, Findings& findings) {
     findings.add(rules::pdo_type, value_in_force(*type).span,
                  fmt::format("{} has invalid transmission type {}", title_of(pdo), number),
                  pdo.is_transmit ? "write 0 to 240, 252 to 255" : "write 0 to 240, 254 or 255");
-  } else if (pdo.is_transmit && number != event_manufacturer && number != event_profile) {
+  } else if (pdo.is_transmit && number != transmission_type::event_manufacturer &&
+             number != transmission_type::event_profile) {
     check_time(pdo, inhibit_sub, "inhibit time", findings);
     check_time(pdo, event_sub, "event time", findings);
   }
@@ -189,7 +185,8 @@ bool is_synchronous(const Pdo& pdo) {
     return false;
   }
   const std::uint64_t number = value_in_force(*type).integer.bits();
-  const bool has_type = number <= last_synchronous || (number == remote_synchronous && pdo.is_transmit);
+  const bool has_type = number <= transmission_type::last_synchronous ||
+                        (number == transmission_type::remote_synchronous && pdo.is_transmit);
   return has_type && (value_in_force(*cob_id).integer.bits() & is_off) == 0;
 }
 

@@ -86,7 +86,7 @@ Baseline::Key Baseline::key_of(const Input& input, const Finding& finding) {
 
 void Baseline::add(const Input& input, const Finding& finding) { ++counts_[key_of(input, finding)]; }
 
-bool Baseline::take(const Input& input, const Finding& finding) {
+bool Baseline::remove_match(const Input& input, const Finding& finding) {
   if (counts_.empty()) {
     return false;
   }

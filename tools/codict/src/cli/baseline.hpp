@@ -24,8 +24,8 @@ class Baseline {
 
   void add(const Input& input, const Finding& finding);
   /// Returns true if the baseline contains the finding, and removes one occurrence of it.
-  bool take(const Input& input, const Finding& finding);
-  /// Returns the number of a file's findings that take() has not removed, for the rules that is_asked selects.
+  bool remove_match(const Input& input, const Finding& finding);
+  /// Returns the number of a file's findings that remove_match() has not removed, for the rules that is_asked selects.
   std::size_t left(const Input& input, const std::function<bool(const std::string&)>& is_asked) const;
 
   Json to_json() const;

@@ -44,8 +44,8 @@ struct Report {
   Baseline fresh;
 };
 
-std::vector<Folded> each_alone(const std::vector<Finding>& findings) {
-  std::vector<Folded> all;
+std::vector<FoldedFindings> each_alone(const std::vector<Finding>& findings) {
+  std::vector<FoldedFindings> all;
   all.reserve(findings.size());
   for (const Finding& finding : findings) {
     all.push_back({&finding, 0, {}});
@@ -65,7 +65,7 @@ bool is_wanted(const Rule& rule, const CheckOptions& options) {
 std::vector<Finding> wanted(const Input& input, const CheckOptions& options, Report& report) {
   std::vector<Finding> result;
   for (const Finding& finding : input.findings.all()) {
-    if (is_wanted(*finding.rule, options) && !report.known.take(input, finding)) {
+    if (is_wanted(*finding.rule, options) && !report.known.remove_match(input, finding)) {
       result.push_back(finding);
       result.back().severity = severity_of(*finding.rule, options);
     }
@@ -79,7 +79,7 @@ void say_what_has_gone(const Input& input, const CheckOptions& options, const Ba
     return rule == nullptr || is_wanted(*rule, options);
   });
   if (number != 0) {
-    complain(input.source().name() + ": no longer found, but in the baseline: " + std::to_string(number));
+    print_message(input.source().name() + ": findings of the baseline that no longer occur: " + std::to_string(number));
   }
 }
 
@@ -100,7 +100,7 @@ Json count_dropped(const Input& input, const CheckOptions& options, Report& repo
   for (const auto& [severity, number] : counts) {
     report.counts[severity] += number;
   }
-  complain(
+  print_message(
       fmt::format("{}: more than {} findings: {} are counted, but not shown; fix the first ones, or leave out "
                   "rules with --disable",
                   input.source().name(), Findings::most,
@@ -114,7 +114,7 @@ void show(const Input& input, const std::vector<Finding>& findings, const Json& 
     report.sarif.add(input, findings);
     return;
   }
-  const std::vector<Folded> folded = options.shows_all ? each_alone(findings) : fold(findings);
+  const std::vector<FoldedFindings> folded = options.shows_all ? each_alone(findings) : fold(findings);
   if (options.form == Form::json) {
     Json file{{"file", input.source().name()}, {"findings", to_json(input.source(), folded)}};
     if (!dropped.members().empty()) {
@@ -169,7 +169,7 @@ void finish(const CheckOptions& options, Report& report, int status) {
   } else if (const std::string text = summary(report.counts[Severity::error], report.counts[Severity::warning],
                                               report.counts[Severity::note]);
              !text.empty()) {
-    complain(text);
+    print_message(text);
   }
 }
 
@@ -177,14 +177,14 @@ void finish(const CheckOptions& options, Report& report, int status) {
 bool prepare(const CheckOptions& options, Report& report) {
   for (const std::string& id : options.disabled) {
     if (catalogue::find_rule(id) == nullptr) {
-      complain(unknown_rule(id));
+      print_message(unknown_rule(id));
       return false;
     }
   }
   std::string why;
   if (!options.new_baseline.empty() && std::filesystem::exists(options.new_baseline) &&
       !Baseline::read(options.new_baseline, why)) {
-    complain(why + ": it is not overwritten");
+    print_message(why + ": it is not overwritten");
     return false;
   }
   if (options.baseline.empty()) {
@@ -192,7 +192,7 @@ bool prepare(const CheckOptions& options, Report& report) {
   }
   std::optional<Baseline> baseline = Baseline::read(options.baseline, why);
   if (!baseline) {
-    complain(why);
+    print_message(why);
     return false;
   }
   report.known = std::move(*baseline);
@@ -226,22 +226,23 @@ Command add_check(CommandLine& line) {
   command.add_option("file", options->files, file_help).required();
   const Choices<Severity> levels = {
       {"note", Severity::note}, {"warning", Severity::warning}, {"error", Severity::error}};
-  command.add_choice("--level", options->level, levels, "Least severity that is shown and counts: note, warning, error")
+  command.add_choice("--level", options->level, levels, "Lowest severity that is reported: note, warning, error")
       .default_text("warning");
-  command.add_option("--disable", options->disabled, "Rule that is left out; may be given several times")
+  command.add_option("--disable", options->disabled, "Rule that is not reported; may be given several times")
       .single_values();
   command
       .add_option("--profile", options->profile,
-                  "Check the objects of a device profile, too: 401, 402, or auto, which is what object 1000h says")
+                  "Also check the objects of a device profile: 401, 402, or auto for the profile in object 1000h")
       .one_of({"401", "402", "auto"});
-  command.add_flag("--werror", options->is_strict, "Take warnings for errors");
+  command.add_flag("--werror", options->is_strict, "Treat warnings as errors");
   const Option known =
-      command.add_option("--baseline", options->baseline, "File of findings that are known: only others are told");
+      command.add_option("--baseline", options->baseline, "File of known findings, which are not reported");
   command
       .add_option("--write-baseline", options->new_baseline,
-                  "Write what is found into a file for --baseline, and tell nothing")
+                  "Write all findings to a file for --baseline, and report none")
       .excludes(known);
-  command.add_flag("--all", options->shows_all, "Show equal findings each, not the first and how many follow");
+  command.add_flag("--all", options->shows_all,
+                   "Show each of several equal findings, not only the first and their number");
   const Choices<Form> forms = {
       {"gcc", Form::gcc}, {"json", Form::json}, {"sarif", Form::sarif}, {"github", Form::github}};
   const Option form =
@@ -249,7 +250,7 @@ Command add_check(CommandLine& line) {
           .add_choice("--error-format", options->form, forms,
                       "gcc: lines for people and editors; json, sarif (2.1.0): for programs; github: annotations")
           .default_text("gcc");
-  command.add_flag("--json", options->is_json, "The same as --error-format json").excludes(form);
+  command.add_flag("--json", options->is_json, "Like --error-format json").excludes(form);
   return {command, [options] { return run_check(*options); }};
 }
 

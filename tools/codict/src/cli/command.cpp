@@ -93,13 +93,13 @@ std::optional<Input> load(const std::string& path) {
   std::string why;
   std::optional<Source> source = read_file(path, why);
   if (!source) {
-    complain(why);
+    print_message(why);
     return std::nullopt;
   }
   const std::string name = source->name();
   std::optional<Input> input = read(std::move(*source), why);
   if (!input) {
-    complain(name + ": " + why);
+    print_message(name + ": " + why);
   }
   return input;
 }
@@ -129,14 +129,14 @@ void check_all(Input& input) {
   suppress(input, catalogue::Origin::checks, input.findings);
 }
 
-std::string not_there(std::string_view what, std::string_view word, const std::vector<std::string_view>& words,
-                      std::string_view catalogue) {
+std::string unknown_word_message(std::string_view what, std::string_view word,
+                                 const std::vector<std::string_view>& words, std::string_view catalogue) {
   const std::vector<std::string_view> near = similar(word, words);
-  return near.empty() ? fmt::format("there is no {} {}: {} names all", what, word, catalogue)
-                      : fmt::format("there is no {} {}: {}?", what, word, fmt::join(near, ", "));
+  return near.empty() ? fmt::format("unknown {} {}; {} lists all", what, word, catalogue)
+                      : fmt::format("unknown {} {}; did you mean {}?", what, word, fmt::join(near, ", "));
 }
 
-void complain(std::string_view text) { fmt::print(stderr, "codict: {}\n", visible(text)); }
+void print_message(std::string_view text) { fmt::print(stderr, "codict: {}\n", visible(text)); }
 
 bool is_terminal() { return ::isatty(STDOUT_FILENO) == 1; }
 
@@ -182,9 +182,7 @@ const Entry* find(const Device& device, const Reference& reference) {
 }
 
 void add_node_id(Arguments& command, std::uint8_t& node_id) {
-  command
-      .add_option("--node-id", node_id,
-                  "Node-ID with which COB-IDs are shown; without it, that of the description, or 1")
+  command.add_option("--node-id", node_id, "Node-ID for the COB-IDs; default: that of the description, or 1")
       .in_hidden_range(1, 127);
 }
 

@@ -82,13 +82,13 @@ void check_all(Input& input);
 void suppress(const Input& input, catalogue::Origin origin, Findings& findings);
 
 /// Returns the message for an unknown word, with similar words of the list, else with the command that lists all words.
-std::string not_there(std::string_view what, std::string_view word, const std::vector<std::string_view>& words,
-                      std::string_view catalogue);
+std::string unknown_word_message(std::string_view what, std::string_view word,
+                                 const std::vector<std::string_view>& words, std::string_view catalogue);
 /// Returns the message for an unknown rule.
 std::string unknown_rule(const std::string& id);
 
 /// Prints "codict: text" on the standard error output, control characters as question marks.
-void complain(std::string_view text);
+void print_message(std::string_view text);
 /// Returns true if the standard output is a terminal.
 bool is_terminal();
 /// Prints on the standard output.

@@ -173,7 +173,7 @@ std::string fish_completion(const CommandLine& line) {
 Command add_completion(CommandLine& line) {
   const auto shell = std::make_shared<std::string>("bash");
   Arguments command = line.add_command("completion", "Print what a shell needs to complete commands and options");
-  command.add_option("shell", *shell, "bash, zsh or fish; without one, bash").one_of({"bash", "zsh", "fish"});
+  command.add_option("shell", *shell, "bash, zsh or fish; default: bash").one_of({"bash", "zsh", "fish"});
   return {command, [&line, shell] {
             print(*shell == "zsh"    ? zsh_completion(line)
                   : *shell == "fish" ? fish_completion(line)

@@ -108,9 +108,9 @@ convert::NodeSettings settings_of(const ConvertOptions& options) {
 bool has_place(const convert::NodeSettings& settings, Target target) {
   const std::string fault = convert::fault_of(settings);
   if (!fault.empty()) {
-    complain(fault);
+    print_message(fault);
   } else if (settings.is_any() && (target == Target::eds || target == Target::xdd)) {
-    complain("--node-id, --bit-rate and --node-name are for one node: the output must be a DCF, XDC or JSON");
+    print_message("--node-id, --bit-rate and --node-name configure one node; the output must be a DCF, XDC or JSON");
   } else {
     return true;
   }
@@ -157,21 +157,23 @@ std::string places_of(const Loss& loss, bool is_all) {
   return places.empty() ? "" : fmt::format(" ({})", fmt::join(places, ", "));
 }
 
-// Prints "codict: drive.xdd: left out: 3 units (2000h, 2001h, 2002h), 40 descriptions (2000h en, 2000h de, …)".
+// Prints "codict: drive.xdd: not in the output: 3 units (2000h, 2001h, 2002h), 40 descriptions (2000h en, 2000h de,
+// …)".
 void report(const Input& input, const std::vector<Loss>& losses, bool is_all) {
   std::vector<std::string> parts;
   parts.reserve(losses.size());
   for (const Loss& loss : losses) {
     parts.push_back(fmt::format("{} {}{}", loss.places.size(), loss.what, places_of(loss, is_all)));
   }
-  complain(fmt::format("{}: left out: {}", input.source().name(), fmt::join(parts, ", ")));
+  print_message(fmt::format("{}: not in the output: {}", input.source().name(), fmt::join(parts, ", ")));
 }
 
 // Copies a file without change of format: only the settings of the node change, all other bytes are equal.
 int copy(const Input& input, const convert::NodeSettings& settings, const ConvertOptions& options) {
   std::string bytes(input.source().bytes());
   if (settings.is_any() && !convert::commission(settings, *input.eds, bytes)) {
-    complain(input.source().name() + ": the encoding of the file lacks a letter of the node name");
+    print_message(input.source().name() +
+                  ": the node name has a character that the encoding of the file does not contain");
     return unusable;
   }
   return write_output(options.output, bytes);
@@ -180,7 +182,7 @@ int copy(const Input& input, const convert::NodeSettings& settings, const Conver
 int run_convert(const ConvertOptions& options) {
   const Product* const product = find_product(options.format.empty() ? ending_of(options.output) : options.format);
   if (product == nullptr) {
-    complain("the output ends with .eds, .dcf, .xdd, .xdc or .json, or --to says which it is");
+    print_message("unknown format of the output; use the suffix .eds, .dcf, .xdd, .xdc or .json, or the option --to");
     return unusable;
   }
   const convert::NodeSettings settings = settings_of(options);
@@ -192,7 +194,7 @@ int run_convert(const ConvertOptions& options) {
     return copy(*input, settings, options);
   }
   if (is_same_file(options.output, options.file)) {
-    complain(options.output + ": it is the description itself");
+    print_message(options.output + ": the output would overwrite the description");
     return unusable;
   }
   const std::vector<Loss> losses = losses_of(*input, product->target);
@@ -230,11 +232,12 @@ Command add_convert(CommandLine& line) {
       .required();
   command
       .add_option("--to", options->format,
-                  "eds, dcf, xdd, xdc, json; xdd10, xdd11, xdc10, xdc11: of that edition of CiA 311")
+                  "eds, dcf, xdd, xdc, json; xdd10, xdd11, xdc10, xdc11: edition 1.0 or 1.1 of CiA 311")
       .one_of(std::move(names));
   add_node_options(command, *options);
-  command.add_flag("--all", options->is_all, "Name each place of what the format has no words for, not the first ones");
-  command.add_flag("--strict-loss", options->is_strict, "Write nothing where the format has no words for something");
+  command.add_flag("--all", options->is_all,
+                   "List all places of contents that the format cannot express, not only the first ones");
+  command.add_flag("--strict-loss", options->is_strict, "Write no file if the format cannot express all contents");
   return {command, [options] { return run_convert(*options); }};
 }
 

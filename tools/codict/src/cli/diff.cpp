@@ -116,14 +116,14 @@ int run_diff(const DiffOptions& options) {
   } else {
     print(render(differences));
     if (!differences.empty()) {
-      complain(summary(differences));
+      print_message(summary(differences));
     }
   }
   if (!options.is_release) {
     return differences.empty() ? clean : found;
   }
   if (!is_announced) {
-    complain("what breaks networks has to raise the major revision number (upper half of 1018h, sub-index 3)");
+    print_message("breaking differences; raise the major revision number (upper half of 1018h, sub-index 3)");
   }
   return is_announced ? clean : found;
 }
@@ -139,13 +139,12 @@ Command add_diff(CommandLine& line) {
   for (const Kind kind : kinds) {
     names.emplace_back(name_of(kind), kind);
   }
-  command.add_choices(
-      "--only", options->only, names,
-      "Kind that is shown and counts: breaking, compatible, configuration, text, file; may be given several "
-      "times");
+  command.add_choices("--only", options->only, names,
+                      "Kind that is reported: breaking, compatible, configuration, text, file; may be given several "
+                      "times");
   command.add_flag("--release", options->is_release,
-                   "Status 1 only if something breaks networks and the major revision number has not been raised");
-  command.add_flag("--json", options->is_json, "For programs");
+                   "Status 1 only if a difference is breaking and the major revision number has not been raised");
+  command.add_flag("--json", options->is_json, "Print JSON, for programs");
   return {command, [options] { return run_diff(*options); }};
 }
 

@@ -20,7 +20,7 @@ struct DocOptions {
 int run_doc(DocOptions options) {
   const std::string format = options.format.empty() ? ending_of(options.output) : options.format;
   if (format != "md" && format != "html") {
-    complain("the output ends with .md or .html, or --to says which it is");
+    print_message("unknown format of the output; use the suffix .md or .html, or the option --to");
     return unusable;
   }
   const std::optional<Input> input = open(options.file);
@@ -42,7 +42,7 @@ Command add_doc(CommandLine& line) {
       .required();
   command.add_option("--to", options->format, "md or html").one_of({"md", "html"});
   add_node_id(command, options->doc.node_id);
-  command.add_option("--language", options->doc.language, "Of labels and descriptions")
+  command.add_option("--language", options->doc.language, "Language of labels and descriptions")
       .default_text(options->doc.language);
   return {command, [options] { return run_doc(*options); }};
 }

@@ -29,7 +29,7 @@ Json rule_json(const Rule& rule) {
 int explain_one(const ExplainOptions& options) {
   const Rule* const rule = catalogue::find_rule(options.rule);
   if (rule == nullptr) {
-    complain(unknown_rule(options.rule));
+    print_message(unknown_rule(options.rule));
     return unusable;
   }
   if (options.is_json) {
@@ -69,15 +69,15 @@ int run_explain(const ExplainOptions& options) {
 }  // namespace
 
 std::string unknown_rule(const std::string& id) {
-  return not_there("rule", id, catalogue::all_ids(), "codict explain");
+  return unknown_word_message("rule", id, catalogue::all_ids(), "codict explain");
 }
 
 Command add_explain(CommandLine& line) {
   const auto options = std::make_shared<ExplainOptions>();
   Arguments command = line.add_command("explain", "Explain a rule of check, gen or network");
-  const Option rule = command.add_option("rule", options->rule, "Id of the rule; without one, all rules are listed");
+  const Option rule = command.add_option("rule", options->rule, "Id of the rule; default: all rules are listed");
   command.add_flag("--all", options->has_all, "Print the reference page of all rules (docs/rules.md)").excludes(rule);
-  command.add_flag("--json", options->is_json, "For programs");
+  command.add_flag("--json", options->is_json, "Print JSON, for programs");
   return {command, [options] { return run_explain(*options); }};
 }
 

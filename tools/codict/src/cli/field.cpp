@@ -107,9 +107,9 @@ const eds::Section* find_section(const Input& input, const std::string& target, 
   const bool is_implied = find(input.device(), reference) != nullptr;
   const bool is_in_compact_storage =
       cli::is_implied(input, reference) || input.device().features.compact_pdo.value == 0;
-  why = is_implied ? to_string(reference) + " has no section of its own: it is " +
-                         (is_in_compact_storage ? "in compact storage" : "made by CompactPDO")
-                   : "there is no object " + to_string(reference);
+  why = is_implied ? to_string(reference) + " has no section: it is " +
+                         (is_in_compact_storage ? "in compact storage" : "created by CompactPDO")
+                   : "object " + to_string(reference) + " does not exist";
   return nullptr;
 }
 
@@ -125,7 +125,7 @@ bool add_to_lists(const Reference& reference, const Assignment& assignment, std:
     return false;
   }
   if (list.empty()) {
-    why = to_string(reference) + " is in compact storage, which has only name, value and denotation of its own";
+    why = to_string(reference) + " is in compact storage, where only name, value and denotation can be set";
     return false;
   }
   lines +=
@@ -138,7 +138,7 @@ const Entry* find_entry(const Input& input, const std::string& target, std::stri
   const bool is_reference = parse_reference(target, reference);
   const Entry* const entry = is_reference ? find(input.device(), reference) : nullptr;
   if (entry == nullptr) {
-    why = is_reference ? "there is no object " + to_string(reference)
+    why = is_reference ? "object " + to_string(reference) + " does not exist"
                        : "no object: " + target + "; only an EDS or DCF has sections";
   }
   return entry;

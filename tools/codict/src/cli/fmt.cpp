@@ -22,7 +22,7 @@ int run_fmt(const FmtOptions& options) {
     return unusable;
   }
   if (input->eds == nullptr) {
-    complain(input->source().name() + ": only an EDS or DCF has a normal form");
+    print_message(input->source().name() + ": not an EDS or DCF; fmt has no normal form for other formats");
     return unusable;
   }
   const std::string bytes = eds::formatted(*input->eds);
@@ -32,7 +32,7 @@ int run_fmt(const FmtOptions& options) {
   if (!options.is_check) {
     status = write_output(path, bytes);
   } else if (is_changed) {
-    complain(input->source().name() + " is not in normal form");
+    print_message(input->source().name() + " is not in normal form");
     status = found;
   }
   if (options.is_json && status != unusable && (options.is_check || path != "-")) {
@@ -48,9 +48,9 @@ Command add_fmt(CommandLine& line) {
   const auto options = std::make_shared<FmtOptions>();
   Arguments command = line.add_command("fmt", "Write an EDS or DCF in its normal form: the same device");
   command.add_option("file", options->file, "EDS or DCF, - for the standard input").required();
-  command.add_option("-o,--output", options->output, "Another file, - for the standard output");
-  command.add_flag("--check", options->is_check, "Write nothing: status 1 if the file would change");
-  command.add_flag("--json", options->is_json, "For programs");
+  command.add_option("-o,--output", options->output, "Output file, - for the standard output; default: the input file");
+  command.add_flag("--check", options->is_check, "Write no file; status 1 if the file would change");
+  command.add_flag("--json", options->is_json, "Print JSON, for programs");
   return {command, [options] { return run_fmt(*options); }};
 }
 

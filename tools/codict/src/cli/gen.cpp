@@ -55,17 +55,17 @@ struct Result {
 // Prints what --check finds: a missing file, or one that differs from the generated text.
 Status compare(const std::string& path, const std::string& bytes) {
   if (!std::filesystem::exists(path)) {
-    complain(path + " is missing");
+    print_message(path + " is missing");
     return found;
   }
   std::string why;
   const std::optional<Source> present = read_file(path, why);
   if (!present) {
-    complain(why);
+    print_message(why);
     return unusable;
   }
   if (present->bytes() != bytes) {
-    complain(path + " is out of date");
+    print_message(path + " is out of date");
   }
   return present->bytes() == bytes ? clean : found;
 }
@@ -88,8 +88,7 @@ std::string groups_text(const Result& result) {
 }
 
 std::string externals_text(const Result& result) {
-  std::string text =
-      result.externals.empty() ? "" : "to be defined by the application (--stubs FILE writes first versions):\n";
+  std::string text = result.externals.empty() ? "" : "to be defined by the application (--stubs FILE writes stubs):\n";
   for (const gen::External& external : result.externals) {
     text += fmt::format("{}  // {}\n", external.declaration, external.about);
   }
@@ -163,7 +162,8 @@ bool have_places(const GenOptions& options, const std::vector<Target>& targets) 
     const bool is_twice = std::any_of(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(n),
                                       [&path](const Target& other) { return is_same_file(path, other.path); });
     if (is_same_file(path, options.file) || is_twice) {
-      complain(path + (is_twice ? ": two files of this name would be written" : ": it is the description itself"));
+      print_message(path +
+                    (is_twice ? ": two outputs have this name" : ": the output would overwrite the description"));
       return false;
     }
   }
@@ -181,13 +181,13 @@ Status write_stubs(const GenOptions& options, const Result& result) {
   std::string why;
   const std::optional<Source> present = read_file(options.stubs, why);
   if (!present) {
-    complain(why);
+    print_message(why);
     return unusable;
   }
   for (const gen::External& external : result.externals) {
     if (present->bytes().find(external.name) == std::string::npos) {
-      complain(fmt::format("{}: the file exists and is not changed; {} is missing in it ({})", options.stubs,
-                           external.name, external.about));
+      print_message(fmt::format("{}: the file exists and is not changed; it does not define {} ({})", options.stubs,
+                                external.name, external.about));
     }
   }
   return clean;
@@ -206,7 +206,7 @@ bool complete(GenOptions& options, const Input& input) {
   if (options.gen.name.empty()) {
     options.gen.name = gen::default_name(options.file);
   } else if (gen::identifier(options.gen.name) != options.gen.name) {
-    complain("--name: small letters, digits and single underscores, and no word of C");
+    print_message("--name: use lower-case letters, digits and single underscores, and no keyword of C");
     return false;
   }
   return parse_stores(options.stores, options.gen) && check_verify(options.verify);
@@ -257,7 +257,7 @@ int run_gen(GenOptions options) {
     return found;
   }
   if (!is_right && !options.is_forced) {
-    complain("nothing is written: --force makes a dictionary nevertheless");
+    print_message("errors, no file was written; --force generates the dictionary nevertheless");
     return found;
   }
   complete_result(options, std::move(*input), result);
@@ -282,32 +282,31 @@ Command add_gen(CommandLine& line) {
   Arguments command = line.add_command("gen", "Make the dictionary of a device: C or C++ source");
   command.add_option("file", options->file, file_help).required();
   command.add_option("-o,--output", options->directory, "Directory of NAME_od.h and NAME_od.c or .cpp").required();
-  command.add_option("--eds", options->eds, "Write an EDS of the device that the dictionary makes")
-      .check(ends_with("eds"));
-  command.add_option("--xdd", options->xdd, "Write an XDD of it").check(ends_with("xdd"));
-  command.add_option(
-      "--stubs", options->stubs,
-      "Write first versions of what the application defines to this C or C++ file, if it does not exist");
+  command.add_option("--eds", options->eds, "Write an EDS of the generated dictionary").check(ends_with("eds"));
+  command.add_option("--xdd", options->xdd, "Write an XDD of the generated dictionary").check(ends_with("xdd"));
+  command.add_option("--stubs", options->stubs,
+                     "Write stubs of the application's definitions to this C or C++ file, if it does not exist");
   add_stores(command, options->stores);
-  command.add_option("--name", options->gen.name, "Beginning of all names; without it, the name of the file");
+  command.add_option("--name", options->gen.name, "Prefix of all names; default: the name of the file");
   const Choices<gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};
   command
       .add_choice("--language", options->gen.language, languages,
-                  "Language of the source: c, c++; the header is of both")
+                  "Language of the source: c, c++; the header is valid in both")
       .default_text("c");
-  command.add_flag("--check", options->is_check, "Write nothing: status 1 if a file would change");
-  command.add_flag("--report", options->is_report, "Bytes of RAM and flash where addresses have 32 bits");
-  command.add_flag("--json", options->is_json, "The same for programs");
-  command.add_flag("--notes", options->shows_notes, "Show notes, too");
-  command.add_flag("--force", options->is_forced, "Make a dictionary although the description has errors");
+  command.add_flag("--check", options->is_check, "Write no file; status 1 if a file would change");
+  command.add_flag("--report", options->is_report, "Print the bytes of RAM and flash for a 32-bit CPU");
+  command.add_flag("--json", options->is_json, "Print the report as JSON, for programs");
+  command.add_flag("--notes", options->shows_notes, "Also show notes");
+  command.add_flag("--force", options->is_forced, "Generate the dictionary although the description has errors");
   add_verify(command, options->verify);
-  command.add_option("--verify-source", options->verify_source, "Write the program that --verify compiles, C or C++");
-  command.add_flag("--unique-names", options->gen.unique_names, "Two entries with one name are an error");
+  command.add_option("--verify-source", options->verify_source,
+                     "Write the program that --verify compiles, in C or C++");
+  command.add_flag("--unique-names", options->gen.unique_names, "Report entries with equal names as errors");
   command.add_flag("--trigger-tpdos", options->gen.trigger_tpdos,
-                   "A change of an object that a TPDO may map triggers it (flag A)");
+                   "Set flag A for objects that can be mapped to TPDOs: a change triggers the TPDO");
   command
       .add_option("--string-capacity", options->gen.string_capacity,
-                  "Bytes of a string of which nothing says how long it may be")
+                  "Bytes of a string whose length the description does not limit")
       .in_range(1, 65535)
       .default_text(std::to_string(options->gen.string_capacity));
   return {command, [options] { return run_gen(*options); }};

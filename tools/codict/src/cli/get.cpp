@@ -49,7 +49,7 @@ int get_from_sections(const Input& input, const GetOptions& options) {
   std::string why;
   const eds::Section* const section = find_section(input, options.target, why);
   if (section == nullptr) {
-    complain(input.source().name() + ": " + why);
+    print_message(input.source().name() + ": " + why);
     return unusable;
   }
   if (options.field.empty()) {
@@ -57,8 +57,8 @@ int get_from_sections(const Input& input, const GetOptions& options) {
   }
   const eds::Key* const key = input.eds->find(*section, key_of(options.field));
   if (key == nullptr) {
-    complain(fmt::format("{}: [{}] has no {}", input.source().name(), input.eds->text(section->name),
-                         key_of(options.field)));
+    print_message(fmt::format("{}: [{}] has no {}", input.source().name(), input.eds->text(section->name),
+                              key_of(options.field)));
     return unusable;
   }
   if (options.is_json) {
@@ -81,7 +81,7 @@ int get_from_elements(const Input& input, const GetOptions& options) {
   std::string why;
   const Entry* const entry = find_entry(input, options.target, why);
   if (entry == nullptr) {
-    complain(input.source().name() + ": " + why);
+    print_message(input.source().name() + ": " + why);
     return unusable;
   }
   Json keys = Json::array();
@@ -94,7 +94,7 @@ int get_from_elements(const Input& input, const GetOptions& options) {
     }
   });
   if (keys.elements().empty()) {
-    complain(fmt::format("{}: {} has no {}", input.source().name(), options.target, options.field));
+    print_message(fmt::format("{}: {} has no {}", input.source().name(), options.target, options.field));
     return unusable;
   }
   if (options.is_json) {
@@ -123,7 +123,7 @@ Command add_get(CommandLine& line) {
   command.add_option(
       "field", options->field,
       "name, object, type, access, default, value, low, high, pdo, flags, denotation, or any key of an EDS");
-  command.add_flag("--json", options->is_json, "For programs");
+  command.add_flag("--json", options->is_json, "Print JSON, for programs");
   return {command, [options] { return run_get(*options); }};
 }
 

@@ -134,7 +134,7 @@ Command add_info(CommandLine& line) {
   const auto options = std::make_shared<InfoOptions>();
   Arguments command = line.add_command("info", "Show what device a description is of");
   command.add_option("file", options->file, file_help).required();
-  command.add_flag("--json", options->is_json, "For programs");
+  command.add_flag("--json", options->is_json, "Print JSON, for programs");
   return {command, [options] { return run_info(*options); }};
 }
 

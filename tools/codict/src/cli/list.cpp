@@ -93,8 +93,8 @@ Command add_list(CommandLine& line) {
   const auto options = std::make_shared<ListOptions>();
   Arguments command = line.add_command("list", "List the objects of a device");
   command.add_option("file", options->file, file_help).required();
-  command.add_flag("--objects", options->has_objects_only, "Without sub-objects");
-  command.add_flag("--json", options->is_json, "For programs");
+  command.add_flag("--objects", options->has_objects_only, "Omit sub-objects");
+  command.add_flag("--json", options->is_json, "Print JSON, for programs");
   return {command, [options] { return run_list(*options); }};
 }
 

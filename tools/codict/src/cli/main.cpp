@@ -20,7 +20,7 @@ std::string words_for_unknown(const std::string& word, const std::vector<Command
   for (const Command& command : commands) {
     names.emplace_back(command.arguments.name());
   }
-  return not_there("command", word, names, "codict --help");
+  return unknown_word_message("command", word, names, "codict --help");
 }
 
 int run(int number, char** arguments) {
@@ -36,7 +36,7 @@ int run(int number, char** arguments) {
       add_size(line),    add_network(line), add_new(line), add_explain(line), add_completion(line), add_man(line)};
   const CommandLine::Parsed parsed = line.parse(number, arguments);
   if (!parsed.unknown_command.empty()) {
-    complain(words_for_unknown(parsed.unknown_command, commands));
+    print_message(words_for_unknown(parsed.unknown_command, commands));
   }
   for (const Command& command : commands) {
     if (command.arguments.name() == parsed.command) {

@@ -23,7 +23,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-using convert::Replaced;
+using convert::ReplacedValue;
 
 struct MergeOptions {
   std::string base;
@@ -50,18 +50,19 @@ constexpr std::array<Word, 7> identity_words = {{{"vendor", "1018:1", "default"}
                                                  {"serial", "1018:4", "default"}}};
 constexpr std::string_view software_version = "100A:0";
 
-struct Merged {
+struct MergeResult {
   Input input;
   std::map<std::pair<std::string, std::string>, std::string> sources;  // by section and key: last overlay
-  std::vector<std::pair<Replaced, std::string>> replaced;              // with the overlay that replaced it
+  std::vector<std::pair<ReplacedValue, std::string>> replaced;         // with the overlay that replaced it
 };
 
-void tell(Merged& merged, const std::string& base, const std::string& overlay, std::vector<Replaced> replaced) {
-  for (Replaced& one : replaced) {
+void report_replacements(MergeResult& merged, const std::string& base, const std::string& overlay,
+                         std::vector<ReplacedValue> replaced) {
+  for (ReplacedValue& one : replaced) {
     std::string& source = merged.sources[{one.section, one.key}];
     if (one.is_definition() || !source.empty()) {
-      complain(fmt::format("{}: [{}] {}={} contradicts {} of {}", overlay, one.section, one.key, one.after, one.before,
-                           source.empty() ? base : source));
+      print_message(fmt::format("{}: [{}] {}={} contradicts {} of {}", overlay, one.section, one.key, one.after,
+                                one.before, source.empty() ? base : source));
     }
     source = overlay;
     merged.replaced.emplace_back(std::move(one), overlay);
@@ -69,19 +70,19 @@ void tell(Merged& merged, const std::string& base, const std::string& overlay, s
 }
 
 // Merges an overlay. Returns false after a message if that fails.
-bool add(Merged& merged, const eds::Document& overlay, const std::string& base) {
-  std::vector<Replaced> replaced;
+bool add(MergeResult& merged, const eds::Document& overlay, const std::string& base) {
+  std::vector<ReplacedValue> replaced;
   std::string bytes;
   const std::string& name = overlay.source().name();
   if (!convert::merge(*merged.input.eds, overlay, bytes, replaced)) {
-    complain(fmt::format("{}: the encoding of {} lacks a letter of it", name, base));
+    print_message(fmt::format("{}: a character is not contained in the encoding of {}", name, base));
     return false;
   }
-  tell(merged, base, name, std::move(replaced));
+  report_replacements(merged, base, name, std::move(replaced));
   std::string why;
   std::optional<Input> input = read(Source(merged.input.source().name(), std::move(bytes)), why);
   if (!input) {
-    complain(fmt::format("{}: {}", name, why));
+    print_message(fmt::format("{}: {}", name, why));
     return false;
   }
   merged.input = std::move(*input);
@@ -100,22 +101,22 @@ std::string lines_of(Device device) {
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
     const std::string_view line = std::string_view(text).substr(begin, end - begin);
-    const bool says_nothing = line.size() > 1 && line[line.size() - 2] == '=';
-    lines += says_nothing ? std::string_view() : line;
+    const bool has_no_value = line.size() > 1 && line[line.size() - 2] == '=';
+    lines += has_no_value ? std::string_view() : line;
     begin = end;
   }
   return lines;
 }
 
-Status add_file(Merged& merged, const std::string& path, const Device& base, const MergeOptions& options) {
+Status add_file(MergeResult& merged, const std::string& path, const Device& base, const MergeOptions& options) {
   const std::optional<Input> input = open(path);
   if (!input) {
     return unusable;
   }
   const std::string other = convert::other_product(base, input->device());
   if (!other.empty() && !options.is_forced) {
-    complain(fmt::format("{}: this describes another product than {}: {}; nothing is written without --force", path,
-                         options.base, other));
+    print_message(fmt::format("{}: another product than {}: {}; no file was written, use --force to merge nevertheless",
+                              path, options.base, other));
     return found;
   }
   Findings findings;
@@ -170,12 +171,12 @@ std::string lines_for(const Input& input, std::string_view assignment, std::stri
   return lines;
 }
 
-bool add_values(Merged& merged, const MergeOptions& options) {
+bool add_values(MergeResult& merged, const MergeOptions& options) {
   for (const std::string& value : options.values) {
     std::string why;
     const std::string lines = lines_for(merged.input, value, why);
     if (lines.empty()) {
-      complain(fmt::format("--set {}: {}", value, why));
+      print_message(fmt::format("--set {}: {}", value, why));
       return false;
     }
     Findings findings;
@@ -186,7 +187,7 @@ bool add_values(Merged& merged, const MergeOptions& options) {
   return true;
 }
 
-Json merged_json(const MergeOptions& options, const Merged& merged) {
+Json merged_json(const MergeOptions& options, const MergeResult& merged) {
   Json json{{"schema", "codict-merge-1"}, {"file", options.output}, {"replaced", Json::array()}};
   for (const auto& [one, overlay] : merged.replaced) {
     json["replaced"].push_back(
@@ -202,16 +203,17 @@ int run_merge(const MergeOptions& options) {
     return unusable;
   }
   if (base->eds == nullptr) {
-    complain(options.base + ": the base is an EDS or DCF: convert makes one of it, set changes values of an XDD");
+    print_message(options.base +
+                  ": the base must be an EDS or DCF; use convert first, or set to change values of an XDD");
     return unusable;
   }
   for (const std::string& overlay : options.overlays) {
     if (is_same_file(options.output, overlay) && !is_same_file(options.output, options.base)) {
-      complain(options.output + ": it is an overlay");
+      print_message(options.output + ": the output would overwrite an overlay");
       return unusable;
     }
   }
-  Merged merged{std::move(*read(base->source(), why)), {}, {}};
+  MergeResult merged{std::move(*read(base->source(), why)), {}, {}};
   for (const std::string& overlay : options.overlays) {
     if (const Status status = add_file(merged, overlay, base->device(), options); status != clean) {
       return status;
@@ -221,7 +223,7 @@ int run_merge(const MergeOptions& options) {
     return unusable;
   }
   if (!options.is_forced && !review(*base, merged.input, options.output)) {
-    complain("nothing is written: --force writes it nevertheless");
+    print_message("new errors, no file was written; --force writes it nevertheless");
     return found;
   }
   const Status status = write_output(options.output, merged.input.source().bytes());
@@ -238,17 +240,18 @@ Command add_merge(CommandLine& line) {
   Arguments command =
       line.add_command("merge", "Put overlays and values over a description, whose other bytes stay as they are");
   command.add_option("base", options->base, "EDS or DCF").required();
-  command.add_option("overlay", options->overlays,
-                     "Descriptions, or parts of them, in any format: what they say replaces, or is added");
+  command.add_option(
+      "overlay", options->overlays,
+      "Descriptions or parts of them, in any format: their contents replace those of the base, or are added");
   command
       .add_option("--set", options->values,
-                  "vendor, product, revision, serial or version =VALUE, or TARGET.FIELD=VALUE as of set; may be given "
+                  "vendor, product, revision, serial or version =VALUE, or TARGET.FIELD=VALUE as for set; may be given "
                   "several times")
       .single_values();
-  command.add_option("-o,--output", options->output, "File that is written, - for the standard output").required();
+  command.add_option("-o,--output", options->output, "Output file, - for the standard output").required();
   command.add_flag("--force", options->is_forced,
-                   "Write it even where it has new errors, or an overlay describes another product");
-  command.add_flag("--json", options->is_json, "Replaced values, for programs");
+                   "Write the output although it has new errors, or an overlay describes another product");
+  command.add_flag("--json", options->is_json, "Print the replaced values as JSON, for programs");
   return {command, [options] { return run_merge(*options); }};
 }
 

@@ -78,7 +78,7 @@ std::optional<Project> planned_project(const NetworkOptions& options) {
   std::string why;
   project.plan = read_file(options.files.front(), why);
   if (!project.plan) {
-    complain(why);
+    print_message(why);
     return std::nullopt;
   }
   project.paths = options.files;
@@ -207,7 +207,7 @@ int write_files(const NetworkOptions& options, const Project& project, const std
     places.emplace_back(options.directory + "/" + file.name, &file);
     for (const std::string& path : project.paths) {
       if (is_same_file(places.back().first, path)) {
-        complain(path + ": an input would be overwritten; choose another directory");
+        print_message(path + ": an output would overwrite an input; choose another directory");
         return unusable;
       }
     }
@@ -239,7 +239,8 @@ int finish(const NetworkOptions& options, const Project& project) {
   const bool has_errors = findings.count(Severity::error) != 0;
   if (options.directory.empty() || net.nodes.empty() || (has_errors && !options.is_forced)) {
     if (!options.directory.empty()) {
-      complain(net.nodes.empty() ? "nothing is written" : "nothing is written: --force writes the files nevertheless");
+      print_message(net.nodes.empty() ? "no node could be read, no file was written"
+                                      : "errors, no file was written; --force writes the files nevertheless");
     }
     return has_errors ? found : clean;
   }
@@ -250,7 +251,8 @@ int run_network(const NetworkOptions& options) {
   constexpr std::size_t most_nodes = 127;
   const bool has_plan = std::any_of(options.files.begin(), options.files.end(), is_plan);
   if ((has_plan && options.files.size() != 1) || options.files.size() > most_nodes) {
-    complain(has_plan ? "one plan (.yaml), or descriptions (.dcf, .xdc) without a plan" : "more than 127 descriptions");
+    print_message(has_plan ? "give either one plan (.yaml), or descriptions (.dcf, .xdc) without a plan"
+                           : "more than 127 descriptions; a network has at most 127 nodes");
     return unusable;
   }
   const std::optional<Project> project = has_plan ? planned_project(options) : described_project(options);
@@ -263,13 +265,15 @@ Command add_network(CommandLine& line) {
   const auto options = std::make_shared<NetworkOptions>();
   Arguments command =
       line.add_command("network", "Check a network: COB-IDs, PDO links, heartbeats, SYNC, bus load, response times");
-  command.add_option("file", options->files, "Plan that ends with .yaml, or DCFs and XDCs of all nodes").required();
+  command.add_option("file", options->files, "Plan (.yaml), or DCFs and XDCs of all nodes").required();
   command.add_option("-o,--output", options->directory,
                      "Directory of a DCF and a concise DCF (.bin) for each node, the master's DCF, and network.html");
-  command.add_option("--bit-rate", options->bit_rate, "Bit rate in kbit/s; without it, that of plan or descriptions")
+  command
+      .add_option("--bit-rate", options->bit_rate,
+                  "Bit rate in kbit/s; default: that of the plan or of the descriptions")
       .in_hidden_range(1, 1000);
-  command.add_flag("--json", options->is_json, "For programs");
-  command.add_flag("--notes", options->shows_notes, "Show notes, too");
+  command.add_flag("--json", options->is_json, "Print JSON, for programs");
+  command.add_flag("--notes", options->shows_notes, "Also show notes");
   command.add_flag("--force", options->is_forced, "Write the files although there are errors");
   return {command, [options] { return run_network(*options); }};
 }

@@ -60,12 +60,11 @@ std::optional<Input> description_of(const NewOptions& options) {
 // least every 20 SYNCs.
 bool can_be_sent(const Pdo& pdo) {
   constexpr std::uint64_t most_syncs = 20;
-  constexpr std::uint64_t first_event_driven = 254;
   const Entry* const type = pdo.parameter(2);
   const std::uint64_t number =
       type != nullptr && value_in_force(*type).is_integer() ? value_in_force(*type).integer.bits() : 0;
   return pdo.is_transmit && pdo.communication != nullptr && !pdo.is_multiplexed && !pdo.mapped.empty() &&
-         (number <= most_syncs || number >= first_event_driven) &&
+         (number <= most_syncs || number >= transmission_type::event_manufacturer) &&
          std::all_of(pdo.mapped.begin(), pdo.mapped.end(),
                      [](const MappedObject& mapped) { return mapped.entry != nullptr; });
 }
@@ -133,13 +132,13 @@ int write_new(const std::string& directory, const std::vector<project::File>& fi
   for (const project::File& file : files) {
     const std::filesystem::path path = std::filesystem::path(directory) / file.name;
     if (std::filesystem::exists(std::filesystem::symlink_status(path, error))) {
-      complain(path.string() + " exists; nothing is written. Give another directory");
+      print_message(path.string() + " exists; no file was written, choose another directory");
       return unusable;
     }
   }
   std::filesystem::create_directories(std::filesystem::path(directory) / "generated", error);
   if (error) {
-    complain(directory + ": " + error.message());
+    print_message(directory + ": " + error.message());
     return unusable;
   }
   for (const project::File& file : files) {
@@ -165,11 +164,11 @@ bool review_description(Input& input, Findings& findings) {
 
 int run_new(const NewOptions& options) {
   if (options.from.empty() == options.profile.empty()) {
-    complain("new needs either --from FILE or --profile 301, 401 or 402");
+    print_message("give either --from FILE or --profile 301, 401 or 402");
     return unusable;
   }
   if (options.from == "-") {
-    complain("--from needs the path of a file");
+    print_message("--from: not the path of a file");
     return unusable;
   }
   std::optional<Input> input = description_of(options);
@@ -187,7 +186,7 @@ int run_new(const NewOptions& options) {
     return found;
   }
   if (!is_right && !options.is_forced) {
-    complain("nothing is written: correct the description, or use --force");
+    print_message("errors, no file was written; correct the description, or use --force");
     return found;
   }
   return write_new(options.directory, files_of(options, *input, output, gen.name, !is_right));
@@ -200,15 +199,15 @@ Command add_new(CommandLine& line) {
   Arguments command = line.add_command("new", "Create a project of a node that builds and runs on a simulated bus");
   command.add_option("directory", options->directory, "Directory of the project; existing files are never replaced")
       .required();
-  const Option from = command.add_option("--from", options->from, "Description of the device, which is copied");
+  const Option from = command.add_option("--from", options->from, "Description of the device; it is copied");
   command
       .add_option("--profile", options->profile,
-                  "Make a description: 301 (no device profile), 401 (inputs and outputs), 402 (drive)")
+                  "Create a description: 301 (no device profile), 401 (inputs and outputs), 402 (drive)")
       .one_of({"301", "401", "402"})
       .excludes(from);
   const Choices<gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};
   command.add_choice("--language", options->language, languages, "Language of the sources: c, c++").default_text("c");
-  command.add_flag("--force", options->is_forced, "Make a project although the description has errors");
+  command.add_flag("--force", options->is_forced, "Create the project although the description has errors");
   return {command, [options] { return run_new(*options); }};
 }
 

@@ -13,7 +13,7 @@ Status write_output(const std::string& path, std::string_view bytes) {
   std::string why;
   const Written written = write_file(path, bytes, why);
   if (!why.empty()) {
-    complain(why);
+    print_message(why);
   }
   return written == Written::no ? unusable : clean;
 }
@@ -22,7 +22,7 @@ bool make_directory(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) {
-    complain(path + ": " + error.message());
+    print_message(path + ": " + error.message());
   }
   return !error;
 }

@@ -165,8 +165,8 @@ Command add_pdo(CommandLine& line) {
   Arguments command = line.add_command("pdo", "Show the PDOs of a device: COB-IDs, times, and what is in them");
   command.add_option("file", options->file, file_help).required();
   add_node_id(command, options->doc.node_id);
-  command.add_option("--language", options->doc.language, "Of labels").default_text(options->doc.language);
-  command.add_flag("--json", options->is_json, "For programs");
+  command.add_option("--language", options->doc.language, "Language of labels").default_text(options->doc.language);
+  command.add_flag("--json", options->is_json, "Print JSON, for programs");
   return {command, [options] { return run_pdo(*options); }};
 }
 

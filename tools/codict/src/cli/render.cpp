@@ -74,9 +74,10 @@ bool wants_colour() {
   return is_terminal() && (refusal == nullptr || *refusal == '\0');
 }
 
-std::string render(const Source& source, Encoding encoding, const std::vector<Folded>& findings, bool has_colour) {
+std::string render(const Source& source, Encoding encoding, const std::vector<FoldedFindings>& findings,
+                   bool has_colour) {
   std::string text;
-  for (const Folded& folded : findings) {
+  for (const FoldedFindings& folded : findings) {
     const Finding& finding = *folded.first;
     const Position position = source.position(finding.span.begin);
     const Severity severity = finding.severity;
@@ -106,9 +107,9 @@ void show_findings(const Input& input, const Findings& findings, Severity least)
   show_findings(input, findings, [least](const Finding& finding) { return finding.rule->severity >= least; });
 }
 
-Json to_json(const Source& source, const std::vector<Folded>& findings) {
+Json to_json(const Source& source, const std::vector<FoldedFindings>& findings) {
   Json all = Json::array();
-  for (const Folded& folded : findings) {
+  for (const FoldedFindings& folded : findings) {
     const Finding& finding = *folded.first;
     const Position begin = source.position(finding.span.begin);
     const Position end = source.position(finding.span.end);

@@ -15,9 +15,9 @@ namespace {
 // Returns the first finding of each kind that occurs more often than before.
 std::vector<Finding> added(const Findings& before, const Findings& after) {
   std::vector<Finding> result;
-  const std::vector<Folded> old = fold(before.all());
-  for (const Folded& now : fold(after.all())) {
-    const auto same = std::find_if(old.begin(), old.end(), [&now](const Folded& candidate) {
+  const std::vector<FoldedFindings> old = fold(before.all());
+  for (const FoldedFindings& now : fold(after.all())) {
+    const auto same = std::find_if(old.begin(), old.end(), [&now](const FoldedFindings& candidate) {
       return candidate.first->rule == now.first->rule && candidate.kind == now.kind;
     });
     if (same == old.end() || same->more < now.more) {

@@ -61,9 +61,9 @@ Json region_of(const Input& input, Span span) {
 
 }  // namespace
 
-std::string to_github(const Source& source, const std::vector<Folded>& findings) {
+std::string to_github(const Source& source, const std::vector<FoldedFindings>& findings) {
   std::string text;
-  for (const Folded& folded : findings) {
+  for (const FoldedFindings& folded : findings) {
     const Finding& finding = *folded.first;
     const Position position = source.position(finding.span.begin);
     const std::string more = folded.more == 0 ? "" : fmt::format("\nand {} more", folded.more);

@@ -14,7 +14,7 @@
 namespace lexican::codict::cli {
 
 /// Returns workflow commands of GitHub, a line for each finding.
-std::string to_github(const Source& source, const std::vector<Folded>& findings);
+std::string to_github(const Source& source, const std::vector<FoldedFindings>& findings);
 
 /// SARIF 2.1.0 document with one run for all files.
 class Sarif {

@@ -87,7 +87,7 @@ bool assign_to_lists(const Input& input, const Reference& reference, const SetOp
     }
   }
   Findings findings;
-  std::vector<convert::Replaced> replaced;
+  std::vector<convert::ReplacedValue> replaced;
   if (!convert::merge(*input.eds, eds::Document(Source("set", lines), findings), bytes, replaced)) {
     why = "the file cannot hold these texts";
     return false;
@@ -176,20 +176,21 @@ int run_set(const SetOptions& options) {
     return unusable;
   }
   if (is_of_another_format(*input, options.output)) {
-    complain(fmt::format("{}: {} is of another format, which convert makes", options.output, input->source().name()));
+    print_message(fmt::format("{}: {} has another format; use convert to change the format", options.output,
+                              input->source().name()));
     return unusable;
   }
   Refusal refusal;
   std::string bytes;
   if (!change(*input, options, bytes, refusal)) {
-    complain(input->source().name() + ": " + refusal.why);
+    print_message(input->source().name() + ": " + refusal.why);
     return refusal.status;
   }
   std::string why;
   std::optional<Input> changed = read(Source(input->source().name(), bytes), why);
   const std::string& path = options.output.empty() ? options.file : options.output;
   if (!options.is_forced && !(changed && review(*input, *changed, path))) {
-    complain("nothing is written: --force writes it nevertheless");
+    print_message("new errors, no file was written; --force writes it nevertheless");
     return found;
   }
   return write(options, *input, bytes);
@@ -205,11 +206,11 @@ Command add_set(CommandLine& line) {
   command.add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)").required();
   command
       .add_option("assignment", options->assignments,
-                  "field=value, the fields as those of get; what a description does not have is added")
+                  "field=value, fields as for get; a field that the description does not have is added")
       .required();
-  command.add_option("-o,--output", options->output, "Another file, - for the standard output");
-  command.add_flag("--force", options->is_forced, "Write values even where they are errors");
-  command.add_flag("--json", options->is_json, "For programs");
+  command.add_option("-o,--output", options->output, "Output file, - for the standard output; default: the input file");
+  command.add_flag("--force", options->is_forced, "Write the file although the values cause new errors");
+  command.add_flag("--json", options->is_json, "Print JSON, for programs");
   return {command, [options] { return run_set(*options); }};
 }
 

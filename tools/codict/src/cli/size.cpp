@@ -52,10 +52,10 @@ Command add_size(CommandLine& line) {
       line.add_command("size", "Show the RAM and flash of the dictionary that gen makes, where addresses have 32 bits");
   command.add_option("file", options->file, file_help).required();
   add_stores(command, options->stores);
-  command.add_flag("--json", options->is_json, "For programs");
+  command.add_flag("--json", options->is_json, "Print JSON, for programs");
   command
       .add_option("--string-capacity", options->gen.string_capacity,
-                  "Bytes of a string of which nothing says how long it may be")
+                  "Bytes of a string whose length the description does not limit")
       .in_range(1, 65535)
       .default_text(std::to_string(options->gen.string_capacity));
   return {command, [options] { return run_size(*options); }};

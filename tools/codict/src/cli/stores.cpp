@@ -29,7 +29,7 @@ void add_stores(Arguments& command, std::vector<std::string>& stores) {
   command
       .add_option("--store", stores,
                   "GROUP=SUB: the sub-index of 1010h (and 1011h) that stores a storage group, hexadecimal; "
-                  "GROUP=none leaves it in RAM")
+                  "GROUP=none keeps it in RAM")
       .single_values();
 }
 
@@ -38,7 +38,7 @@ bool parse_stores(const std::vector<std::string>& stores, gen::Options& options)
     const std::size_t sign = store.rfind('=');
     std::uint8_t sub_index = 0;
     if (sign == std::string::npos || sign == 0 || !parse_sub(std::string_view(store).substr(sign + 1), sub_index)) {
-      complain(fmt::format(
+      print_message(fmt::format(
           "--store {}: the form is GROUP=SUB, with a sub-index of 1 to 7F (hexadecimal), or GROUP=none", store));
       return false;
     }

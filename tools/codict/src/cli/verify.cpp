@@ -126,18 +126,18 @@ void complain_of_build(const std::string& log) {
     }
   });
   for (const std::string& refusal : refusals) {
-    complain(refusal + " (-D with --verify, co_cfg.h)");
+    print_message(refusal + " (-D with --verify, co_cfg.h)");
   }
   if (!refusals.empty()) {
     return;
   }
-  complain("verify: the dictionary, or the stack, does not compile:");
+  print_message("verify: the dictionary, or the stack, does not compile:");
   constexpr std::size_t most = 20;
   for (std::size_t n = 0; n < std::min(errors.size(), most); ++n) {
-    complain(errors[n]);
+    print_message(errors[n]);
   }
   if (errors.empty()) {
-    for_lines(log, [](const std::string& line) { complain(line); });
+    for_lines(log, [](const std::string& line) { print_message(line); });
   }
 }
 
@@ -173,16 +173,15 @@ bool is_definition(const std::string& definition) {
 }  // namespace
 
 void add_verify(Arguments& command, VerifyOptions& options) {
-  command.add_flag(
-      "--verify", options.is_wanted,
-      "Compile the dictionary with the stack and start a node with it: status 1 if the stack reports an error");
+  command.add_flag("--verify", options.is_wanted,
+                   "Compile the dictionary with the stack and start a node; status 1 if the stack reports an error");
   command.add_option("--stack", options.stack, "With --verify: directory with the sources of Lexican");
   command.add_option("--preset", options.preset, "With --verify: configuration of the stack: minimal, slave, full")
       .default_text(options.preset);
   command.add_option("-D,--define", options.definitions, "With --verify: setting of the stack: CO_RPDO_N=8")
       .single_values();
   command.add_option("--build-dir", options.build_directory,
-                     "With --verify: directory that keeps the compiled stack; else it is compiled each time");
+                     "With --verify: directory for the compiled stack; default: it is compiled each time");
 }
 
 bool check_verify(const VerifyOptions& options) {
@@ -190,21 +189,21 @@ bool check_verify(const VerifyOptions& options) {
     return true;
   }
   if (options.stack.empty()) {
-    complain("--verify compiles the stack, which codict does not contain: name its sources, --stack DIR");
+    print_message("--verify needs the sources of the stack; give their directory, --stack DIR");
     return false;
   }
   const std::string preset = options.stack + "/config/presets/" + options.preset + ".h";
   if (!std::filesystem::exists(options.stack + "/include/co_core.h")) {
-    complain(options.stack + ": no sources of Lexican (include/co_core.h is missing)");
+    print_message(options.stack + ": no sources of Lexican (include/co_core.h is missing)");
     return false;
   }
   if (options.preset.find('/') != std::string::npos || !std::filesystem::exists(preset)) {
-    complain(fmt::format("--preset {}: no such file: {}", options.preset, preset));
+    print_message(fmt::format("--preset {}: no such file: {}", options.preset, preset));
     return false;
   }
   const auto wrong = std::find_if_not(options.definitions.begin(), options.definitions.end(), is_definition);
   if (wrong != options.definitions.end()) {
-    complain(fmt::format("-D {}: the form is NAME=VALUE", *wrong));
+    print_message(fmt::format("-D {}: not of the form NAME=VALUE", *wrong));
     return false;
   }
   return true;
@@ -213,7 +212,7 @@ bool check_verify(const VerifyOptions& options) {
 Status verify(const gen::Output& output, const gen::Options& gen, const VerifyOptions& options) {
   const BuildDirectory directory(options.build_directory);
   if (directory.path().empty() || !write_project(directory, output, gen, options)) {
-    complain("verify: the build directory cannot be written");
+    print_message("verify: the build directory cannot be written");
     return unusable;
   }
   if (!build(directory)) {
@@ -221,7 +220,7 @@ Status verify(const gen::Output& output, const gen::Options& gen, const VerifyOp
   }
   const std::string log = directory / "log";
   const bool is_right = run_logged(quoted(directory / "build/verify"), log);
-  for_lines(text_of(log), [](const std::string& line) { complain(line); });
+  for_lines(text_of(log), [](const std::string& line) { print_message(line); });
   return is_right ? clean : found;
 }
 

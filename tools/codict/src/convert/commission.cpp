@@ -57,7 +57,7 @@ bool commission(const NodeSettings& settings, const eds::Document& dcf, std::str
     add("Baudrate", std::to_string(*settings.bit_rate));
   }
   Findings ignored;
-  std::vector<Replaced> replaced;
+  std::vector<ReplacedValue> replaced;
   return merge(dcf, eds::Document(Source("commissioning", std::move(lines)), ignored), bytes, replaced);
 }
 

@@ -52,7 +52,7 @@ class Counter {
   // Adds the losses of all objects and sub-objects.
   void each(std::string_view what, const std::function<Details(const Entry&)>& details_of) {
     Details places;
-    for (const Described& described : entries_) {
+    for (const EntryOfObject& described : entries_) {
       for (const std::string& detail : details_of(*described.entry)) {
         const std::string place = place_of(described);
         places.push_back(detail.empty() ? place : fmt::format("{} {}", place, detail));
@@ -60,22 +60,22 @@ class Counter {
     }
     add(what, std::move(places));
   }
-  std::vector<Loss> take() { return std::move(losses_); }
+  std::vector<Loss> take_losses() { return std::move(losses_); }
 
  private:
-  struct Described {
+  struct EntryOfObject {
     const Entry* entry;
     const Object* object;
     const Sub* sub;  // null for the object itself
   };
 
-  static std::string place_of(const Described& described) {
+  static std::string place_of(const EntryOfObject& described) {
     const std::uint16_t index = described.object->index;
     return described.sub == nullptr ? fmt::format("{:04X}h", index)
                                     : fmt::format("{:04X}h:{:X}", index, described.sub->sub_index);
   }
 
-  std::vector<Described> entries_;
+  std::vector<EntryOfObject> entries_;
   std::vector<Loss> losses_;
 };
 
@@ -110,14 +110,14 @@ Details properties_of(const Entry& entry) {
 void count_words_for_eds(const Device& device, Counter& counter) {
   counter.each("labels", [](const Entry& entry) {
     Details languages;
-    for (const Label& label : entry.words->labels) {
+    for (const Label& label : entry.texts->labels) {
       append(languages, Details(label.text.text != entry.name.text ? 1 : 0, label.language));
     }
     return languages;
   });
   const bool has_python_keys = device.dialect == "python-canopen";
   if (!has_python_keys) {
-    counter.each("descriptions", [](const Entry& entry) { return each_of(entry.words->descriptions, language_of); });
+    counter.each("descriptions", [](const Entry& entry) { return each_of(entry.texts->descriptions, language_of); });
     counter.each("units", [](const Entry& entry) { return one_if(entry.unit->is_given); });
     counter.each("multipliers", [](const Entry& entry) { return one_of(entry.multiplier); });
   }
@@ -152,11 +152,11 @@ void count_headers_for_eds(const Device& device, Counter& counter) {
        {identity.build_date, "buildDate"},
        {identity.specification_revision, "specificationRevision"},
        {identity.instance_name, "instanceName"}}};
-  Details kept;
+  Details part;
   for (const auto& [text, name] : texts) {
-    append(kept, Details(text.is_empty() ? 0 : 1, name));
+    append(part, Details(text.is_empty() ? 0 : 1, name));
   }
-  counter.add("texts of the identity", std::move(kept));
+  counter.add("texts of the identity", std::move(part));
   Details channels;
   for (const DynamicChannel& channel : device.dynamic_channels) {
     append(channels, one_of(channel.max_number));
@@ -289,7 +289,7 @@ void count_for_xdd(const Device& device, Counter& counter) {
   counter.add("lines of comment", Details(device.comments.size()));
   counter.add("modules", each_of(device.modules, [](const Module& module) { return std::to_string(module.number); }));
   counter.add("connected modules", Details(device.connected_modules.size()));
-  const auto name_of = [](const Kept& kept) { return kept.name; };
+  const auto name_of = [](const OpaquePart& part) { return part.name; };
   counter.add("sections that CiA 306 does not know", each_of(device.others, name_of));
   counter.each("keys that CiA 306 does not know",
                [&name_of](const Entry& entry) { return each_of(entry.others, name_of); });
@@ -334,7 +334,7 @@ std::vector<Loss> losses(const Description& description, Target target) {
       count_for_xdc(device.commissioning, counter);
     }
   }
-  return counter.take();
+  return counter.take_losses();
 }
 
 Device without_configuration(Device device) {

@@ -60,7 +60,7 @@ bool have_same_meaning(std::string_view key, std::string_view a, std::string_vie
 
 class Merger {
  public:
-  Merger(const eds::Document& base, const eds::Document& overlay, std::vector<Replaced>& replaced)
+  Merger(const eds::Document& base, const eds::Document& overlay, std::vector<ReplacedValue>& replaced)
       : base_(base), overlay_(overlay), replaced_(replaced), end_(base.line_end()) {
     for (const eds::Section& section : base.sections()) {
       const SectionName name = eds::section_name(base.raw(section.name));
@@ -259,7 +259,7 @@ class Merger {
 
   const eds::Document& base_;
   const eds::Document& overlay_;
-  std::vector<Replaced>& replaced_;
+  std::vector<ReplacedValue>& replaced_;
   std::string end_;
   std::map<SectionKey, const eds::Section*> sections_;
   std::map<Order, const eds::Section*> by_order_;
@@ -271,10 +271,12 @@ class Merger {
 
 }  // namespace
 
-bool Replaced::is_definition() const { return is_one_of(key, {"ObjectType", "DataType", "AccessType", "PDOMapping"}); }
+bool ReplacedValue::is_definition() const {
+  return is_one_of(key, {"ObjectType", "DataType", "AccessType", "PDOMapping"});
+}
 
 bool merge(const eds::Document& base, const eds::Document& overlay, std::string& bytes,
-           std::vector<Replaced>& replaced) {
+           std::vector<ReplacedValue>& replaced) {
   return Merger(base, overlay, replaced).run(bytes);
 }
 

@@ -11,7 +11,7 @@
 namespace lexican::codict::convert {
 
 /// Value that an overlay has replaced.
-struct Replaced {
+struct ReplacedValue {
   std::string section;
   std::string key;
   std::string before;
@@ -24,6 +24,6 @@ struct Replaced {
 /// Returns in bytes the base with all sections and keys of the overlay; all other bytes are unchanged. Adds new objects
 /// to the lists and corrects all counts. Returns false if the encoding of base lacks a character.
 bool merge(const eds::Document& base, const eds::Document& overlay, std::string& bytes,
-           std::vector<Replaced>& replaced);
+           std::vector<ReplacedValue>& replaced);
 
 }  // namespace lexican::codict::convert

@@ -159,7 +159,7 @@ const AllowedValue* find_value(const std::vector<AllowedValue>& values, const Va
 
 Text label_of(const AllowedValue& value) {
   Text label;
-  label.text = text_in(value.words.labels, "en");
+  label.text = text_in(value.texts.labels, "en");
   label.span = value.value.span;
   return label;
 }
@@ -203,7 +203,7 @@ void compare_labels(std::string_view what, const std::vector<Label>& before, con
 // Returns the labels that differ from the name; an EDS has no others.
 std::vector<Label> own_labels(const Entry& entry) {
   std::vector<Label> labels;
-  std::copy_if(entry.words->labels.begin(), entry.words->labels.end(), std::back_inserter(labels),
+  std::copy_if(entry.texts->labels.begin(), entry.texts->labels.end(), std::back_inserter(labels),
                [&entry](const Label& label) { return label.text.text != entry.name.text; });
   return labels;
 }
@@ -211,7 +211,7 @@ std::vector<Label> own_labels(const Entry& entry) {
 void compare_words(const Entry& before, const Entry& after, const Recorder& recorder) {
   recorder.text(Kind::text, "name", before.name, after.name);
   compare_labels("label", own_labels(before), own_labels(after), recorder);
-  compare_labels("description", before.words->descriptions, after.words->descriptions, recorder);
+  compare_labels("description", before.texts->descriptions, after.texts->descriptions, recorder);
   recorder.text(Kind::text, "denotation", before.denotation, after.denotation);
 }
 
@@ -233,8 +233,8 @@ const Text* find_other(const Entry& entry, const std::string& name) {
   if (property != entry.properties->end()) {
     return &property->value;
   }
-  const auto kept = std::find_if(entry.others.begin(), entry.others.end(), has_name);
-  return kept != entry.others.end() ? &kept->text : nullptr;
+  const auto part = std::find_if(entry.others.begin(), entry.others.end(), has_name);
+  return part != entry.others.end() ? &part->text : nullptr;
 }
 
 void compare_others(const Entry& before, const Entry& after, const Recorder& recorder) {

@@ -118,14 +118,14 @@ std::string transmission_text(const Entry& entry) {
   if (type == 0) {
     return "synchronous, when it has changed";
   }
-  if (type <= 240) {
+  if (type <= transmission_type::last_synchronous) {
     return type == 1 ? "with each SYNC" : fmt::format("once every {} SYNCs", type);
   }
   switch (type) {
-    case 252: return "on request, sampled at SYNC";
-    case 253: return "on request";
-    case 254: return "by events of the manufacturer";
-    case 255: return "by events of the device profile";
+    case transmission_type::remote_synchronous: return "on request, sampled at SYNC";
+    case transmission_type::remote: return "on request";
+    case transmission_type::event_manufacturer: return "by events of the manufacturer";
+    case transmission_type::event_profile: return "by events of the device profile";
     default: return fmt::format("reserved ({})", type);
   }
 }
@@ -215,15 +215,15 @@ class Chapters {
     }
   }
 
-  std::vector<Chapter> take() { return std::move(chapters_); }
+  std::vector<Chapter> take_chapters() { return std::move(chapters_); }
 
  private:
   Chapter chapter_of(const Group& group, unsigned level) {
     Chapter chapter;
-    chapter.title = text_in(group.words.labels, options_.language);
+    chapter.title = text_in(group.texts.labels, options_.language);
     chapter.title = chapter.title.empty() ? group.id.text : chapter.title;
     chapter.anchor = "g-" + std::to_string(++groups_);
-    chapter.words = text_in(group.words.descriptions, options_.language);
+    chapter.words = text_in(group.texts.descriptions, options_.language);
     chapter.level = level;
     const std::set<std::string_view> wanted = ids_of(group);
     for (const Object& object : device_.objects) {
@@ -278,7 +278,7 @@ Contents contents_of(const Device& device, const Options& options) {
   Chapters chapters(device, options);
   chapters.add_groups(device.groups, 0);
   chapters.add_areas();
-  contents.chapters = chapters.take();
+  contents.chapters = chapters.take_chapters();
   return contents;
 }
 

@@ -25,7 +25,7 @@ class HtmlPage {
     fmt::format_to(std::back_inserter(text_), form, escaped_html(arguments)...);
   }
   void raw(std::string_view html) { text_ += html; }
-  std::string take() { return std::move(text_); }
+  std::string take_text() { return std::move(text_); }
 
  private:
   std::string text_;
@@ -167,7 +167,7 @@ std::string html(const Device& device, const Options& options) {
   page.raw("</main>\n<script>");
   page.raw(script);
   page.raw("</script></body></html>\n");
-  return page.take();
+  return page.take_text();
 }
 
 }  // namespace lexican::codict::doc

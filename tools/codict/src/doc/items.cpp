@@ -47,7 +47,7 @@ std::string range_of(const Entry& entry) {
 }
 
 std::string unit_of(const Entry& entry, const Options& options) {
-  const std::string_view label = text_in(entry.unit->words.labels, options.language);
+  const std::string_view label = text_in(entry.unit->texts.labels, options.language);
   const std::string unit = label.empty() ? entry.unit->uri.text : std::string(label);
   const std::string& multiplier = entry.unit->multiplier.text;
   return multiplier.empty() || multiplier == "1" ? unit : multiplier + " " + unit;
@@ -56,7 +56,7 @@ std::string unit_of(const Entry& entry, const Options& options) {
 std::vector<Fact> allowed_values(const Device& device, const Entry& entry, const Options& options) {
   std::vector<Fact> facts;
   for (const AllowedValue& allowed : allowed_values_of(device, entry)) {
-    facts.push_back({allowed.value.text, std::string(text_in(allowed.words.labels, options.language))});
+    facts.push_back({allowed.value.text, std::string(text_in(allowed.texts.labels, options.language))});
   }
   return facts;
 }
@@ -67,7 +67,7 @@ constexpr std::uint32_t needs_reset = 4;
 
 std::vector<std::string> words_of(const Entry& entry, const Options& options) {
   std::vector<std::string> words;
-  const std::string_view description = text_in(entry.words->descriptions, options.language);
+  const std::string_view description = text_in(entry.texts->descriptions, options.language);
   if (!description.empty()) {
     words.emplace_back(description);
   }
@@ -118,7 +118,7 @@ std::string anchor_of(std::uint16_t index, std::uint8_t sub_index) {
 }
 
 std::string name_in(const Entry& entry, const Options& options) {
-  const std::string_view label = text_in(entry.words->labels, options.language);
+  const std::string_view label = text_in(entry.texts->labels, options.language);
   return label.empty() ? entry.name.text : std::string(label);
 }
 

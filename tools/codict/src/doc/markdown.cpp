@@ -56,7 +56,7 @@ class MarkdownPage {
   }
   void row(const std::vector<std::string>& cells) { fmt::format_to(out(), "| {} |\n", fmt::join(cells, " | ")); }
 
-  std::string take() { return std::move(text_); }
+  std::string take_text() { return std::move(text_); }
 
  private:
   std::back_insert_iterator<std::string> out() { return std::back_inserter(text_); }
@@ -165,7 +165,7 @@ std::string markdown(const Device& device, const Options& options) {
       write_object(object, heading_of(3 + chapter.level), page);
     }
   }
-  return page.take();
+  return page.take_text();
 }
 
 }  // namespace lexican::codict::doc

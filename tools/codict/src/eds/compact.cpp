@@ -58,8 +58,8 @@ Sub* find_sub(Object& object, std::uint32_t number) {
 
 void read_sub_list(Object& object, const NamedSection& addition, const Reader& reader) {
   const NumberedList list = read_list(*addition.section, "NrOfEntries", "", Gaps::are_right, reader);
-  Kept rest = kept(reader.document, *addition.section);
-  rest.children.clear();
+  OpaquePart opaque = opaque_part(reader.document, *addition.section);
+  opaque.children.clear();
   for (const NumberedKey& entry : list.entries) {
     Sub* const sub = find_sub(object, entry.number);
     const bool is_free = sub != nullptr && !member_of(*sub, addition.name.kind).is_given;
@@ -70,7 +70,7 @@ void read_sub_list(Object& object, const NamedSection& addition, const Reader& r
       }
       continue;
     }
-    rest.children.push_back(kept(reader.document, *entry.key));
+    opaque.children.push_back(opaque_part(reader.document, *entry.key));
     reader.findings.add(rules::compact_entry, entry.key->name,
                         sub == nullptr
                             ? fmt::format("{:04X}h has no sub-index {:02X}h", object.index, entry.number)
@@ -78,10 +78,10 @@ void read_sub_list(Object& object, const NamedSection& addition, const Reader& r
                         sub == nullptr ? "raise CompactSubObj, or remove the entry" : "remove the entry");
   }
   for (const Key* key : list.others) {
-    keep_key(*key, rest.children, reader);
+    store_opaque_key(*key, opaque.children, reader);
   }
-  if (!rest.children.empty()) {
-    object.others.push_back(std::move(rest));
+  if (!opaque.children.empty()) {
+    object.others.push_back(std::move(opaque));
   }
 }
 
@@ -93,7 +93,7 @@ void read_links(Object& object, const Section& section, const Reader& reader) {
     interpret_number(link, 0xFFFF, reader.findings);
   }
   for (const Key* key : list.others) {
-    keep_key(*key, object.others, reader);
+    store_opaque_key(*key, object.others, reader);
   }
 }
 
@@ -101,9 +101,10 @@ void read_links(Object& object, const Section& section, const Reader& reader) {
 
 bool take_implied_subs(std::size_t number, Span place, const Reader& reader) {
   if (reader.implied_subs + number > most_implied_subs) {
-    reader.findings.add(rules::compact_limit, place,
-                        fmt::format("more than {} sub-objects without sections; left out", most_implied_subs),
-                        "describe fewer sub-objects");
+    reader.findings.add(
+        rules::compact_limit, place,
+        fmt::format("more than {} sub-objects without sections; the others are omitted", most_implied_subs),
+        "describe fewer sub-objects");
     return false;
   }
   reader.implied_subs += number;
@@ -145,7 +146,7 @@ void read_addition(const NamedSection& addition, const Reader& reader) {
       reader.findings.add(rules::section_orphan, addition.section->name,
                           fmt::format("section [{:04X}] of the object is missing", addition.name.index), "add it");
     }
-    reader.device.others.push_back(kept(reader.document, *addition.section));
+    reader.device.others.push_back(opaque_part(reader.document, *addition.section));
   } else if (addition.name.kind == SectionKind::links) {
     read_links(*object, *addition.section, reader);
   } else {

@@ -16,16 +16,16 @@ namespace lexican::codict::eds {
 
 Text text_of(const Document& document, const Key& key) { return {document.text(key.value), key.value, true}; }
 
-Kept kept(const Document& document, const Key& key) {
+OpaquePart opaque_part(const Document& document, const Key& key) {
   return {document.text(key.name), text_of(document, key), {}, {key.name.begin, key.value.end}};
 }
 
-Kept kept(const Document& document, const Section& section) {
-  Kept result;
+OpaquePart opaque_part(const Document& document, const Section& section) {
+  OpaquePart result;
   result.name = document.text(section.name);
   result.span = section.name;
   for (const Key& key : section.keys) {
-    result.children.push_back(kept(document, key));
+    result.children.push_back(opaque_part(document, key));
   }
   return result;
 }
@@ -53,8 +53,8 @@ void report_length(const Text& text, std::size_t longest, Findings& findings) {
   }
 }
 
-void keep_key(const Key& key, std::vector<Kept>& others, const Reader& reader) {
-  others.push_back(kept(reader.document, key));
+void store_opaque_key(const Key& key, std::vector<OpaquePart>& others, const Reader& reader) {
+  others.push_back(opaque_part(reader.document, key));
   if (!key.is_duplicate && !key.value.is_empty()) {  // an empty value counts as a missing key
     reader.findings.add(rules::key_unknown, key.name,
                         fmt::format("key {} is unknown to CiA 306", in_quotes(reader.document.text(key.name))),

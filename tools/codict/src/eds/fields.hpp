@@ -27,8 +27,8 @@ struct Reader {
 
 Text text_of(const Document& document, const Key& key);
 /// Return a key or a section as a part that the model does not interpret.
-Kept kept(const Document& document, const Key& key);
-Kept kept(const Document& document, const Section& section);
+OpaquePart opaque_part(const Document& document, const Key& key);
+OpaquePart opaque_part(const Document& document, const Section& section);
 
 /// A key of CiA 306 and the member of the model that holds its value.
 template <typename T>
@@ -63,18 +63,18 @@ bool read_into(T& target, const Key& key, const std::array<Slot<T>, size>& slots
 
 /// Reads all keys of a section. Duplicates and keys without a slot are added to `others`; unknown ones are reported.
 template <typename T, std::size_t size>
-void read_section(T& target, const Section& section, const std::array<Slot<T>, size>& slots, std::vector<Kept>& others,
-                  const Reader& reader);
+void read_section(T& target, const Section& section, const std::array<Slot<T>, size>& slots,
+                  std::vector<OpaquePart>& others, const Reader& reader);
 
 /// Adds a key without a slot to `others`. Reports it as unknown, unless it is a duplicate or has no value.
-void keep_key(const Key& key, std::vector<Kept>& others, const Reader& reader);
+void store_opaque_key(const Key& key, std::vector<OpaquePart>& others, const Reader& reader);
 
 template <typename T, std::size_t size>
-void read_section(T& target, const Section& section, const std::array<Slot<T>, size>& slots, std::vector<Kept>& others,
-                  const Reader& reader) {
+void read_section(T& target, const Section& section, const std::array<Slot<T>, size>& slots,
+                  std::vector<OpaquePart>& others, const Reader& reader) {
   for (const Key& key : section.keys) {
     if (key.is_duplicate || !read_into(target, key, slots, reader)) {
-      keep_key(key, others, reader);
+      store_opaque_key(key, others, reader);
     }
   }
 }

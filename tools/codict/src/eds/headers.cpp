@@ -21,12 +21,12 @@ constexpr std::uint64_t u8 = std::numeric_limits<std::uint8_t>::max();
 constexpr std::uint64_t u16 = std::numeric_limits<std::uint16_t>::max();
 constexpr std::uint64_t u32 = std::numeric_limits<std::uint32_t>::max();
 
-// Keys of former versions of the standard: kept without a finding.
+// Keys of former versions of the standard: stored as opaque parts without a finding.
 constexpr std::array<std::string_view, 4> former_keys = {"ProductVersion", "ProductRevision", "LMT_ManufacturerName",
                                                          "LMT_ProductName"};
 
 // Keeps the keys of a section that have no member in the model.
-void keep_section(std::string_view name, std::vector<Kept> children, const Section& section, Device& device) {
+void keep_section(std::string_view name, std::vector<OpaquePart> children, const Section& section, Device& device) {
   if (!children.empty()) {
     device.others.push_back({std::string(name), {}, std::move(children), section.name});
   }
@@ -34,7 +34,7 @@ void keep_section(std::string_view name, std::vector<Kept> children, const Secti
 
 void read_file_info(const Section& section, const Reader& reader) {
   FileInfo& file = reader.device.file;
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
   read_section(file, section, file_slots, others, reader);
   interpret_number(file.version, u8, reader.findings);
   interpret_number(file.revision, u8, reader.findings);
@@ -77,13 +77,13 @@ void interpret_device_info(Device& device, Findings& findings) {
 }
 
 void read_device_info(const Section& section, const Reader& reader) {
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
   for (const Key& key : section.keys) {
     if (!key.is_duplicate && is_former(reader.document.raw(key.name))) {
-      others.push_back(kept(reader.document, key));
+      others.push_back(opaque_part(reader.document, key));
     } else if (key.is_duplicate ||
                !(read_into(reader.device, key, device_slots, reader) || read_bit_rate(key, reader))) {
-      keep_key(key, others, reader);
+      store_opaque_key(key, others, reader);
     }
   }
   interpret_device_info(reader.device, reader.findings);
@@ -92,14 +92,14 @@ void read_device_info(const Section& section, const Reader& reader) {
 
 void read_dummy_usage(const Section& section, const Reader& reader) {
   constexpr std::string_view word = "Dummy";
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
   for (const Key& key : section.keys) {
     const std::string_view name = reader.document.raw(key.name);
     std::uint64_t type = 0;
     const bool is_dummy = name.size() > word.size() && equal_ignoring_case(name.substr(0, word.size()), word) &&
                           parse_hex(name.substr(word.size()), type) && type <= u16;
     if (!is_dummy || key.is_duplicate) {
-      keep_key(key, others, reader);
+      store_opaque_key(key, others, reader);
       continue;
     }
     Dummy dummy;
@@ -117,9 +117,9 @@ void read_comments(const Section& section, const Reader& reader) {
     reader.device.comments.push_back(text_of(reader.document, *entry.key));
     report_length(reader.device.comments.back(), 249, reader.findings);
   }
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
   for (const Key* key : list.others) {
-    keep_key(*key, others, reader);
+    store_opaque_key(*key, others, reader);
   }
   keep_section("Comments", std::move(others), section, reader.device);
 }
@@ -133,10 +133,10 @@ void read_commissioning(const NamedSection& header, const Reader& reader) {
   if (commissioning.is_given) {  // already read from a section in the other spelling
     reader.findings.add(rules::duplicate_section, header.section->name,
                         "duplicate section [DeviceComissioning]; the first is used", "remove one of them");
-    reader.device.others.push_back(kept(reader.document, *header.section));
+    reader.device.others.push_back(opaque_part(reader.document, *header.section));
     return;
   }
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
   read_section(commissioning, *header.section, commissioning_slots, others, reader);
   commissioning.is_given = true;
   interpret_number(commissioning.node_id, u8, reader.findings);
@@ -190,7 +190,7 @@ void read_dynamic_channels(const Section& section, const Reader& reader) {
   }};
   const std::size_t most = section.keys.size();  // limit of the segment numbers
   std::vector<DynamicChannel>& channels = reader.device.dynamic_channels;
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
   Field<std::uint32_t> count;
   for (const Key& key : section.keys) {
     const std::string_view name = reader.document.raw(key.name);
@@ -202,7 +202,7 @@ void read_dynamic_channels(const Section& section, const Reader& reader) {
       static_cast<Text&>(count) = text_of(reader.document, key);
       interpret_number(count, u32, reader.findings);
     } else if (key.is_duplicate || slot == slots.end() || number == 0 || number > most) {
-      keep_key(key, others, reader);
+      store_opaque_key(key, others, reader);
     } else {
       channels.resize(std::max<std::size_t>(channels.size(), number));
       slot->member(channels[number - 1]) = text_of(reader.document, key);
@@ -220,7 +220,7 @@ void read_dynamic_channels(const Section& section, const Reader& reader) {
 
 void read_supported_modules(const Section& section, const Reader& reader) {
   constexpr std::array<Slot<Device>, 1> slots = {{{"NrOfEntries", [](Device& d) -> Text& { return d.module_count; }}}};
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
   read_section(reader.device, section, slots, others, reader);
   interpret_number(reader.device.module_count, u16, reader.findings);
   keep_section("SupportedModules", std::move(others), section, reader.device);
@@ -233,9 +233,9 @@ void read_connected_modules(const Section& section, const Reader& reader) {
     static_cast<Text&>(module) = text_of(reader.document, *entry.key);
     interpret_number(module, u16, reader.findings);
   }
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
   for (const Key* key : list.others) {
-    keep_key(*key, others, reader);
+    store_opaque_key(*key, others, reader);
   }
   keep_section("ConnectedModules", std::move(others), section, reader.device);
 }

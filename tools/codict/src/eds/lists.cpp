@@ -62,12 +62,12 @@ ObjectList read_indexes(const Section& section, std::string_view count_key, cons
     static_cast<Text&>(index) = text_of(reader.document, *entry.key);
     interpret_number(index, 0xFFFF, reader.findings);
   }
-  Kept rest{reader.document.text(section.name), {}, {}, section.name};
+  OpaquePart opaque{reader.document.text(section.name), {}, {}, section.name};
   for (const Key* key : numbered.others) {
-    keep_key(*key, rest.children, reader);
+    store_opaque_key(*key, opaque.children, reader);
   }
-  if (!rest.children.empty()) {
-    reader.device.others.push_back(std::move(rest));
+  if (!opaque.children.empty()) {
+    reader.device.others.push_back(std::move(opaque));
   }
   return list;
 }

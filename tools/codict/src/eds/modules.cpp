@@ -62,7 +62,7 @@ void read_part(Module& module, const NamedSection& named, const Reader& reader) 
       module.comments.push_back(text_of(reader.document, *entry.key));
     }
     for (const Key* key : list.others) {
-      keep_key(*key, module.others, reader);
+      store_opaque_key(*key, module.others, reader);
     }
   }
 }
@@ -76,7 +76,7 @@ void read_modules(const std::vector<NamedSection>& sections, const Reader& reade
     Module& module = modules[named.name.module];
     module.number = named.name.module;
     if (named.section->is_duplicate) {
-      module.others.push_back(kept(reader.document, *named.section));
+      module.others.push_back(opaque_part(reader.document, *named.section));
     } else if (named.name.kind == SectionKind::module_fixed) {
       fixed[named.name.module].push_back(named);
     } else if (named.name.kind == SectionKind::module_extension) {

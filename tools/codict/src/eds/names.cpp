@@ -58,11 +58,11 @@ bool to_number(std::string_view digits, std::uint64_t largest, std::uint64_t& nu
 }
 
 // Reads "sub" and a sub-index behind an index. Returns false for any other text.
-bool take_sub(std::string_view rest, SectionName& name) {
+bool read_sub_index(std::string_view suffix, SectionName& name) {
   constexpr std::string_view word = "sub";
-  std::string_view digits = rest.substr(std::min(word.size(), rest.size()));
+  std::string_view digits = suffix.substr(std::min(word.size(), suffix.size()));
   std::uint64_t sub_index = 0;
-  if (!equal_ignoring_case(rest.substr(0, word.size()), word) ||
+  if (!equal_ignoring_case(suffix.substr(0, word.size()), word) ||
       !to_number(digits, std::numeric_limits<std::uint64_t>::max(), sub_index)) {
     return false;
   }
@@ -74,14 +74,14 @@ bool take_sub(std::string_view rest, SectionName& name) {
   name.is_sub = true;
   name.has_odd_zeros = name.has_odd_zeros || (digits.size() > 1 && digits.front() == '0');
   name.has_odd_case =
-      name.has_odd_case || rest.substr(0, word.size()) != word || std::any_of(digits.begin(), digits.end(), is_small);
+      name.has_odd_case || suffix.substr(0, word.size()) != word || std::any_of(digits.begin(), digits.end(), is_small);
   return true;
 }
 
 // Returns the kind of list that the word behind an index names; other if it names none.
-SectionKind list_kind(std::string_view rest) {
-  const auto* const found = std::find_if(suffixes.begin(), suffixes.end(), [rest](const Suffix& suffix) {
-    return equal_ignoring_case(rest, suffix.word);
+SectionKind list_kind(std::string_view suffix) {
+  const auto* const found = std::find_if(suffixes.begin(), suffixes.end(), [suffix](const Suffix& candidate) {
+    return equal_ignoring_case(suffix, candidate.word);
   });
   return found != suffixes.end() ? found->kind : SectionKind::other;
 }
@@ -99,7 +99,7 @@ void read_indexed(std::string_view text, SectionKind alone, SectionKind with_sub
   read.has_odd_case = std::any_of(digits.begin(), digits.end(), is_small);
   if (text.empty()) {
     read.kind = alone;
-  } else if (take_sub(text, read)) {
+  } else if (read_sub_index(text, read)) {
     read.kind = with_sub;
   } else if (alone == SectionKind::object) {
     read.kind = list_kind(text);

@@ -28,7 +28,7 @@ bool read_python_key(Entry& entry, const Key& key, const Reader& reader) {
       fmt::format("key {} is defined by python-canopen only", in_quotes(reader.document.text(key.name))),
       "convert the description to XDD for other tools");
   if (Unit* const unit = entry.unit.if_any()) {
-    unit->is_given = !unit->words.labels.empty();
+    unit->is_given = !unit->texts.labels.empty();
   }
   reader.device.dialect = python_dialect;
   return true;
@@ -177,7 +177,7 @@ bool keep_object_key(Sub& sub, const Key& key, const Reader& reader) {
     return compare_names(reader.document.raw(key.name), slot.key) == 0;
   });
   if (is_known) {
-    sub.others.push_back(kept(reader.document, key));
+    sub.others.push_back(opaque_part(reader.document, key));
     reader.findings.add(rules::key_misplaced, key.name,
                         fmt::format("key {} has no effect in a sub-object", in_quotes(reader.document.text(key.name))),
                         "remove it");
@@ -191,7 +191,7 @@ void read_sub(Sub& sub, const Section& section, const Reader& reader) {
   for (const Key& key : section.keys) {
     if (key.is_duplicate || !(read_into(static_cast<Entry&>(sub), key, entry_slots, reader) ||
                               keep_object_key(sub, key, reader) || read_python_key(sub, key, reader))) {
-      keep_key(key, sub.others, reader);
+      store_opaque_key(key, sub.others, reader);
     }
   }
   read_storage_group(sub, section, reader);
@@ -233,7 +233,7 @@ const DataType& type_of(const Entry& entry, const Reader& reader) {
 void read_key(Object& object, const Key& key, const Reader& reader) {
   if (key.is_duplicate || !(read_into(static_cast<Entry&>(object), key, entry_slots, reader) ||
                             read_into(object, key, object_slots, reader) || read_python_key(object, key, reader))) {
-    keep_key(key, object.others, reader);
+    store_opaque_key(key, object.others, reader);
   }
 }
 
@@ -276,19 +276,20 @@ void read_part(const NamedSection& part, std::vector<Object>& objects, const Rea
   read_sub(sub, *part.section, reader);
 }
 
-void keep_second(const NamedSection& part, std::vector<Kept>& others, const Reader& reader) {
+void keep_second(const NamedSection& part, std::vector<OpaquePart>& others, const Reader& reader) {
   if (!part.section->is_duplicate) {  // a duplicate name is already reported
     reader.findings.add(
         rules::duplicate_section, part.section->name,
         fmt::format("duplicate section [{}]; the first is used", shortened(reader.document.text(part.section->name))),
         "remove one of them, or correct its index");
   }
-  others.push_back(kept(reader.document, *part.section));
+  others.push_back(opaque_part(reader.document, *part.section));
 }
 
 }  // namespace
 
-std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Kept>& others, const Reader& reader) {
+std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<OpaquePart>& others,
+                                 const Reader& reader) {
   const auto key_of = [](const NamedSection& part) {
     return std::make_tuple(part.name.index, part.name.is_sub, part.name.sub_index);
   };

@@ -21,7 +21,8 @@ void read_header(const NamedSection& header, const Reader& reader);
 void check_headers(const Reader& reader);
 
 // objects.cpp: reads sections of kind object, sub or module_fixed, in any order. Duplicates are added to `others`.
-std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Kept>& others, const Reader& reader);
+std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<OpaquePart>& others,
+                                 const Reader& reader);
 /// Interpret the values. All objects must have been read, because they may define data types.
 void interpret_values(Object& object, const Reader& reader);
 void interpret_values(Entry& entry, const Reader& reader);

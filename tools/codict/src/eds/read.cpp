@@ -17,7 +17,7 @@ namespace lexican::codict::eds {
 
 namespace {
 
-struct Sorted {
+struct SortedSections {
   std::vector<NamedSection> headers;
   std::vector<NamedSection> objects;
   std::vector<NamedSection> additions;
@@ -38,7 +38,7 @@ void report_form(const NamedSection& named, const Reader& reader) {
   }
 }
 
-std::vector<NamedSection>& place_of(SectionKind kind, Sorted& sorted) {
+std::vector<NamedSection>& place_of(SectionKind kind, SortedSections& sorted) {
   switch (kind) {
     case SectionKind::header: return sorted.headers;
     case SectionKind::object:
@@ -55,8 +55,8 @@ std::vector<NamedSection>& place_of(SectionKind kind, Sorted& sorted) {
   return sorted.others;
 }
 
-Sorted sort_sections(const Reader& reader) {
-  Sorted sorted;
+SortedSections sort_sections(const Reader& reader) {
+  SortedSections sorted;
   for (const Section& section : reader.document.sections()) {
     const NamedSection named{section_name(reader.document.raw(section.name)), &section};
     report_form(named, reader);
@@ -68,7 +68,7 @@ Sorted sort_sections(const Reader& reader) {
 void read_headers(const std::vector<NamedSection>& headers, const Reader& reader) {
   for (const NamedSection& header : headers) {
     if (header.section->is_duplicate) {
-      reader.device.others.push_back(kept(reader.document, *header.section));
+      reader.device.others.push_back(opaque_part(reader.document, *header.section));
     } else {
       read_header(header, reader);
     }
@@ -101,12 +101,12 @@ void keep_others(const std::vector<NamedSection>& others, const Reader& reader) 
           fmt::format("section {} is unknown to CiA 306", in_quotes(reader.document.text(named.section->name))),
           "check the spelling");
     }
-    reader.device.others.push_back(kept(reader.document, *named.section));
+    reader.device.others.push_back(opaque_part(reader.document, *named.section));
   }
   if (!reader.document.keys_outside().empty()) {
-    Kept outside;
+    OpaquePart outside;
     for (const Key& key : reader.document.keys_outside()) {
-      outside.children.push_back(kept(reader.document, key));
+      outside.children.push_back(opaque_part(reader.document, key));
     }
     reader.device.others.push_back(std::move(outside));
   }
@@ -123,7 +123,7 @@ Description read(const Document& document, Findings& findings) {
   Device& device = description.devices.emplace_back();
   std::size_t implied_subs = 0;
   const Reader reader{document, device, findings, implied_subs};
-  Sorted sorted = sort_sections(reader);
+  SortedSections sorted = sort_sections(reader);
   read_headers(sorted.headers, reader);
   device.objects = read_objects(std::move(sorted.objects), device.others, reader);
   for (const NamedSection& addition : sorted.additions) {

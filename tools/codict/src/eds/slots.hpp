@@ -110,9 +110,9 @@ inline Text& first_of(std::vector<Label>& labels) {
 
 /// Keys that python-canopen adds to CiA 306.
 inline constexpr std::array<Slot<Entry>, 3> python_slots = {{
-    {"Unit", [](Entry& e) -> Text& { return first_of(e.unit.edit().words.labels); }},
+    {"Unit", [](Entry& e) -> Text& { return first_of(e.unit.edit().texts.labels); }},
     {"Factor", [](Entry& e) -> Text& { return e.multiplier.edit(); }},
-    {"Description", [](Entry& e) -> Text& { return first_of(e.words.edit().descriptions); }},
+    {"Description", [](Entry& e) -> Text& { return first_of(e.texts.edit().descriptions); }},
 }};
 inline constexpr std::string_view python_dialect = "python-canopen";
 

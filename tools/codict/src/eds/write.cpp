@@ -29,7 +29,7 @@ struct NameLess {
 class Writer {
  public:
   Writer(const Device& device, const WriteOptions& options) : device_(device), options_(options) {
-    for (const Kept& other : device.others) {
+    for (const OpaquePart& other : device.others) {
       others_[other.name].push_back(&other);
     }
   }
@@ -37,8 +37,8 @@ class Writer {
   void headers();
   void object_list(ListKind kind);
   void modules();
-  void rest();
-  std::string take() { return std::move(text_); }
+  void other_sections();
+  std::string take_text() { return std::move(text_); }
 
  private:
   void section(std::string_view name) {
@@ -77,23 +77,23 @@ class Writer {
     }
   }
 
-  // Writes kept keys. Kept parts of other formats cannot be keys of an EDS.
-  void kept(const std::vector<Kept>& others) {
-    for (const Kept& other : others) {
+  // Writes opaque keys. Opaque parts of other formats cannot be keys of an EDS.
+  void opaque_keys(const std::vector<OpaquePart>& others) {
+    for (const OpaquePart& other : others) {
       if (is_of_eds(device_) && other.children.empty()) {
         line(other.name, other.text.text);
       }
     }
   }
 
-  // Writes the kept keys of a section, which have no member in the model, back to that section.
-  void kept_of(std::string_view name) {
+  // Writes the opaque keys of a section, which have no member in the model, back to that section.
+  void opaque_keys_of(std::string_view name) {
     const auto place = others_.find(name);
     if (place == others_.end()) {
       return;
     }
-    for (const Kept* other : place->second) {
-      kept(other->children);
+    for (const OpaquePart* other : place->second) {
+      opaque_keys(other->children);
     }
     others_.erase(place);
   }
@@ -122,7 +122,7 @@ class Writer {
 
   const Device& device_;
   const WriteOptions& options_;
-  std::map<std::string_view, std::vector<const Kept*>, NameLess> others_;  // sections not yet written
+  std::map<std::string_view, std::vector<const OpaquePart*>, NameLess> others_;  // sections not yet written
   std::string text_;
 };
 
@@ -145,7 +145,7 @@ void Writer::device_info(const Device& normal) {
       line(fmt::format("BaudRate_{}", rate.kbit), flag_text(rate.supported));
     }
   }
-  kept_of("DeviceInfo");
+  opaque_keys_of("DeviceInfo");
 }
 
 void Writer::dummies() {
@@ -156,7 +156,7 @@ void Writer::dummies() {
   for (const Dummy& dummy : device_.dummies) {
     line(fmt::format("Dummy{:04X}", dummy.type), flag_text(dummy.supported));
   }
-  kept_of("DummyUsage");
+  opaque_keys_of("DummyUsage");
 }
 
 void Writer::comments() {
@@ -165,14 +165,14 @@ void Writer::comments() {
   }
   section("Comments");
   numbered("Lines", "Line", device_.comments, [](const Text& text) { return text.text; });
-  kept_of("Comments");
+  opaque_keys_of("Comments");
 }
 
 void Writer::headers() {
   const Device normal = normal_headers(device_);
   section("FileInfo");
   slots(normal.file, file_slots);
-  kept_of("FileInfo");
+  opaque_keys_of("FileInfo");
   device_info(normal);
   dummies();
   comments();
@@ -180,7 +180,7 @@ void Writer::headers() {
   if (options_.as_dcf) {
     section("DeviceComissioning");
     slots(normal.commissioning, commissioning_slots);
-    kept_of("DeviceComissioning");
+    opaque_keys_of("DeviceComissioning");
   }
 }
 
@@ -201,7 +201,7 @@ void Writer::channels() {
          is_range ? index_text(channel.first_index) + "-" + index_text(channel.last_index) : channel.first_index.text);
     line(fmt::format("PPOffset{}", number), written(channel.offset, "{}"));
   }
-  kept_of("DynamicChannels");
+  opaque_keys_of("DynamicChannels");
 }
 
 // Objects ----------------------------------------------------------------------------------------------------------
@@ -219,7 +219,7 @@ void Writer::entry(const Entry& entry) {
   if (device_.dialect == python_dialect) {
     slots(entry, python_slots);
   }
-  kept(entry.others);
+  opaque_keys(entry.others);
   const Field<std::string>& group = entry.node->storage_group;  // its text may be the number of a group
   if (!group.is_empty() || !group.value.empty()) {
     line(";StorageLocation", group.value.empty() ? group.text : group.value);  // the form that other tools read
@@ -299,7 +299,7 @@ void Writer::object_list(ListKind kind) {
   }
   section(name);
   numbered("SupportedObjects", "", objects, [](const Object* object) { return index_text(object->index); });
-  kept_of(name);
+  opaque_keys_of(name);
   for (const Object* object : types) {
     this->object(*object, "");
   }
@@ -314,7 +314,7 @@ void Writer::module(const Module& module) {
   const std::string prefix = fmt::format("M{}", module.number);
   section(prefix + "ModuleInfo");
   slots(module, module_slots);
-  kept(module.others);
+  opaque_keys(module.others);
   if (!module.comments.empty()) {
     section(prefix + "Comments");
     numbered("Lines", "Line", module.comments, [](const Text& text) { return text.text; });
@@ -342,7 +342,7 @@ void Writer::modules() {
   if (!device_.modules.empty()) {
     section("SupportedModules");
     line("NrOfEntries", std::to_string(device_.modules.size()));
-    kept_of("SupportedModules");
+    opaque_keys_of("SupportedModules");
     for (const Module& each : device_.modules) {
       module(each);
     }
@@ -354,13 +354,13 @@ void Writer::modules() {
 }
 
 // Writes unknown sections and those of CiA 405, without duplicates.
-void Writer::rest() {
-  for (const Kept& other : device_.others) {
+void Writer::other_sections() {
+  for (const OpaquePart& other : device_.others) {
     const bool is_unwritten = others_.count(other.name) != 0;
     if (is_of_eds(device_) && is_unwritten && !other.name.empty() &&
         section_name(other.name).kind == SectionKind::other) {
       section(other.name);
-      kept_of(other.name);
+      opaque_keys_of(other.name);
     }
   }
 }
@@ -374,8 +374,8 @@ std::string write(const Device& device, const WriteOptions& options) {
   writer.object_list(ListKind::optional);
   writer.object_list(ListKind::manufacturer);
   writer.modules();
-  writer.rest();
-  return writer.take();
+  writer.other_sections();
+  return writer.take_text();
 }
 
 }  // namespace lexican::codict::eds

@@ -105,16 +105,16 @@ void add(std::vector<Member>& members, std::vector<Member> more, std::size_t ite
 // Returns the FNV-1a hash of a group's layout, folded to the 24 bits of CO_PARA_VERSION().
 std::uint32_t hash(const Plan& plan, const Group& group) {
   std::uint32_t state = 0x811C9DC5;
-  const auto take = [&state](std::uint32_t number) {
+  const auto add_to_hash = [&state](std::uint32_t number) {
     for (unsigned shift = 0; shift < 32; shift += 8) {
       state = (state ^ (number >> shift & 0xFFU)) * 0x01000193U;
     }
   };
   for (const Member& member : group.members) {
     const Item& item = plan.items[member.item];
-    take(item.key() | static_cast<std::uint32_t>(member.role));
-    take(item.form->code);
-    take(member.size);
+    add_to_hash(item.key() | static_cast<std::uint32_t>(member.role));
+    add_to_hash(item.form->code);
+    add_to_hash(member.size);
   }
   return (state >> 24 ^ state) & 0x00FFFFFFU;
 }

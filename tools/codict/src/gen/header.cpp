@@ -257,7 +257,7 @@ std::string write_requirements(const Plan& plan) {
   out.add("#define CODICT_TEXT(value) #value\n#define CODICT_VALUE(macro) CODICT_TEXT(macro)");
   Configuration(plan).write_messages(out);
   out.add("#ifdef CODICT_REFUSED\n#error \"the configuration is too small for the description\"\n#endif\n");
-  return out.take();
+  return out.take_text();
 }
 
 std::string write_header(const Plan& plan, const Options& options) {
@@ -295,7 +295,7 @@ std::string write_header(const Plan& plan, const Options& options) {
   out.add("extern const CO_OBJ {}_od[{}_OD_NUM];\n\n#ifdef __cplusplus\n}}\n#endif", options.name, prefix);
   write_handles(plan, options, out);
   out.raw("\n#endif\n");
-  return out.take();
+  return out.take_text();
 }
 
 }  // namespace lexican::codict::gen

@@ -252,7 +252,7 @@ class Items {
     if (item.value.is_given) {
       findings_.add(
           rules::cob_id, item.value.span,
-          fmt::format("COB-ID {} of the default SDO lacks $NODEID, which is added", in_quotes(item.value.text)),
+          fmt::format("COB-ID {} of the default SDO without $NODEID; it is added", in_quotes(item.value.text)),
           item.sub_index == 1 ? "write $NODEID+0x600" : "write $NODEID+0x580");
     }
     set_number(item, item.sub_index == 1 ? 0x600 : 0x580);

@@ -204,7 +204,7 @@ class SourceText {
     write_defaults();
     write_table();
     write_proofs();
-    return out_.take();
+    return out_.take_text();
   }
 
  private:

@@ -131,7 +131,7 @@ std::string write_stubs(const Plan& plan, const Options& options) {
       write_memory(item, external_of(item, options), out);
     }
   }
-  return out.take();
+  return out.take_text();
 }
 
 }  // namespace lexican::codict::gen

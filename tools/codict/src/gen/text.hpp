@@ -23,7 +23,7 @@ class Lines {
   }
   void blank() { text_ += '\n'; }
   void raw(std::string_view text) { text_ += text; }
-  std::string take() { return std::move(text_); }
+  std::string take_text() { return std::move(text_); }
 
  private:
   std::string text_;

@@ -163,8 +163,8 @@ std::string write_verify(const Plan& plan, const Options& options) {
   Lines out;
   out.raw(generated_comment(options));
   out.add(
-      "// Starts a node with the dictionary and prints what the stack says of it. The status is 1 if it says "
-      "anything.");
+      "// Starts a node with the dictionary and prints the errors of the stack. The status is 1 if there is "
+      "one.");
   out.add("#include <stddef.h>\n#include <stdio.h>\n#include <string.h>\n\n#include \"co_core.h\"\n");
   out.raw(write_requirements(plan));
   out.raw(write_stubs(plan, options));
@@ -173,7 +173,7 @@ std::string write_verify(const Plan& plan, const Options& options) {
           prefix);
   out.raw(drivers);
   out.raw(fmt::format(start, options.name, prefix, options.node_id));
-  return out.take();
+  return out.take_text();
 }
 
 }  // namespace lexican::codict::gen

@@ -22,10 +22,10 @@ using Part = std::conditional_t<Visit::is_reading, T, const T>;
 // the values, because all data types are known then.
 
 template <typename Visit>
-void members(Visit& visit, Part<Visit, Kept>& kept) {
-  visit("name", kept.name);
-  visit("text", kept.text);
-  visit("children", kept.children);
+void members(Visit& visit, Part<Visit, OpaquePart>& part) {
+  visit("name", part.name);
+  visit("text", part.text);
+  visit("children", part.children);
 }
 
 template <typename Visit>
@@ -37,15 +37,15 @@ void members(Visit& visit, Part<Visit, Label>& label) {
 }
 
 template <typename Visit>
-void members(Visit& visit, Part<Visit, Words>& words) {
-  visit("labels", words.labels);
-  visit("descriptions", words.descriptions);
+void members(Visit& visit, Part<Visit, LabelGroup>& texts) {
+  visit("labels", texts.labels);
+  visit("descriptions", texts.descriptions);
 }
 
 template <typename Visit>
 void members(Visit& visit, Part<Visit, Unit>& unit) {
   visit("given", unit.is_given);
-  visit("words", unit.words);
+  visit("words", unit.texts);
   visit("multiplier", unit.multiplier);
   visit("uri", unit.uri);
 }
@@ -53,7 +53,7 @@ void members(Visit& visit, Part<Visit, Unit>& unit) {
 template <typename Visit>
 void members(Visit& visit, Part<Visit, AllowedValue>& allowed) {
   visit("value", allowed.value);
-  visit("words", allowed.words);
+  visit("words", allowed.texts);
   visit("offset", allowed.offset);
   visit("multiplier", allowed.multiplier);
 }
@@ -97,7 +97,7 @@ template <typename Visit>
 void members(Visit& visit, Part<Visit, TypeDefinition::Member>& member) {
   visit("name", member.name);
   visit("id", member.id);
-  visit("words", member.words);
+  visit("words", member.texts);
   visit("type", member.type);
   visit("size", member.size);
   visit("others", member.others);
@@ -108,7 +108,7 @@ void members(Visit& visit, Part<Visit, TypeDefinition>& type) {
   visit.required("kind", type.kind);
   visit("name", type.name);
   visit("id", type.id);
-  visit("words", type.words);
+  visit("words", type.texts);
   visit("type", type.type);
   visit("size", type.size);
   visit("bounds", type.bounds);
@@ -155,7 +155,7 @@ void members(Visit& visit, Part<Visit, Entry>& entry) {
   visit("download_file", entry.download_file);
   visit("parameter_reference", entry.parameter_reference);
   visit("parameter_id", entry.parameter_id);
-  visit("words", entry.words);
+  visit("words", entry.texts);
   visit("denotations", entry.denotations);
   visit("type", entry.type);
   visit("unit", entry.unit);
@@ -251,9 +251,9 @@ void members(Visit& visit, Part<Visit, Identity>& identity) {
   visit("build_date", identity.build_date);
   visit("specification_revision", identity.specification_revision);
   visit("instance_name", identity.instance_name);
-  visit("vendor_words", identity.vendor_words);
-  visit("family_words", identity.family_words);
-  visit("product_words", identity.product_words);
+  visit("vendor_words", identity.vendor_texts);
+  visit("family_words", identity.family_texts);
+  visit("product_words", identity.product_texts);
 }
 
 template <typename Visit>
@@ -346,7 +346,7 @@ void members(Visit& visit, Part<Visit, Module>& module) {
 template <typename Visit>
 void members(Visit& visit, Part<Visit, Group>& group) {
   visit("id", group.id);
-  visit("words", group.words);
+  visit("words", group.texts);
   visit("kind_of_access", group.kind_of_access);
   visit("parameters", group.parameters);
   visit("groups", group.groups);

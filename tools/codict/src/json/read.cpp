@@ -40,7 +40,7 @@ const std::vector<const Rule*>& all_rules() {
 namespace {
 
 // A value whose text is interpreted after all data types of the device have been read.
-struct Untyped {
+struct UninterpretedValue {
   Value* value;
   const Entry* entry;  // null: without a data type
   bool has_meaning;    // the meaning is given as well ("value")
@@ -49,7 +49,7 @@ struct Untyped {
 
 struct Context {
   Findings& findings;
-  std::vector<Untyped> untyped;
+  std::vector<UninterpretedValue> uninterpreted;
   Format format = Format::eds;  // of the device that is read
 };
 
@@ -96,7 +96,8 @@ class Reader {
  public:
   static constexpr bool is_reading = true;
 
-  Reader(const Node& node, Context& context) : node_(node), context_(context), first_untyped_(context.untyped.size()) {}
+  Reader(const Node& node, Context& context)
+      : node_(node), context_(context), first_untyped_(context.uninterpreted.size()) {}
 
   template <typename T>
   void required(std::string_view name, T& member) {
@@ -126,19 +127,20 @@ class Reader {
   void end_of(Entry& entry) {
     entry.span = node_.span;
     entry.extent = {node_.span.begin, node_.end};
-    for (std::size_t n = first_untyped_; n != context_.untyped.size(); ++n) {
-      context_.untyped[n].entry = &entry;
+    for (std::size_t n = first_untyped_; n != context_.uninterpreted.size(); ++n) {
+      context_.uninterpreted[n].entry = &entry;
     }
   }
   void end_of(const Device& device) {
-    for (const Untyped& untyped : context_.untyped) {
-      const bool is_typed = untyped.entry != nullptr;
-      const bool is_implied = untyped.has_meaning && untyped.value->is_empty();  // defined by a standard
+    for (const UninterpretedValue& uninterpreted : context_.uninterpreted) {
+      const bool is_typed = uninterpreted.entry != nullptr;
+      const bool is_implied = uninterpreted.has_meaning && uninterpreted.value->is_empty();  // defined by a standard
       if (!is_implied) {
-        settle(untyped, data_type_of(device, is_typed ? untyped.entry->data_type.value : std::uint16_t{0}));
+        interpret_by_type(uninterpreted,
+                          data_type_of(device, is_typed ? uninterpreted.entry->data_type.value : std::uint16_t{0}));
       }
     }
-    context_.untyped.clear();
+    context_.uninterpreted.clear();
   }
 
   // Reports members that no read has requested, and duplicates.
@@ -356,7 +358,7 @@ class Reader {
       complete(value);
     }
     const bool has_kind = node.kind == Kind::object && node.find("kind") != nullptr;
-    context_.untyped.push_back({&value, nullptr, has_meaning, has_kind});
+    context_.uninterpreted.push_back({&value, nullptr, has_meaning, has_kind});
   }
 
   // Reads a number without a text.
@@ -405,42 +407,43 @@ class Reader {
 
   // Sets a value to the meaning of its text for a data type. A given kind remains if it is consistent with the text;
   // without a known data type, the given meaning remains.
-  void settle(const Untyped& untyped, const DataType& type) {
-    const Value& said = *untyped.value;
+  void interpret_by_type(const UninterpretedValue& uninterpreted, const DataType& type) {
+    const Value& given = *uninterpreted.value;
     const bool is_typed = type.kind != TypeKind::unknown && type.kind != TypeKind::structure;
     // Without a "value", texts of these kinds are interpreted, and other given kinds remain.
-    const bool is_of_text = said.kind == Value::Kind::real || said.kind == Value::Kind::malformed;
-    const bool is_settled = untyped.has_meaning ? untyped.has_kind || !is_typed : untyped.has_kind && !is_of_text;
+    const bool is_of_text = given.kind == Value::Kind::real || given.kind == Value::Kind::malformed;
+    const bool keeps_given =
+        uninterpreted.has_meaning ? uninterpreted.has_kind || !is_typed : uninterpreted.has_kind && !is_of_text;
     Findings ignored;
     Value value;
-    const Text& written = said;
+    const Text& written = given;
     static_cast<Text&>(value) = written;
-    codict::interpret(value, type, is_settled ? ignored : context_.findings);
-    const bool is_contradiction = untyped.has_meaning && contradicts(said, value);
+    codict::interpret(value, type, keeps_given ? ignored : context_.findings);
+    const bool is_contradiction = uninterpreted.has_meaning && contradicts(given, value);
     if (is_contradiction) {
       context_.findings.add(rules::contradiction, value.span,
                             fmt::format("text {} contradicts the value; the text is used", in_quotes(value.text)),
                             "change both, or remove one of them");
     }
-    const bool stays = said.kind != Value::Kind::none && !is_typed && said.kind != value.kind;
-    if (is_contradiction || !(is_settled || stays)) {
-      *untyped.value = std::move(value);
+    const bool keeps_kind = given.kind != Value::Kind::none && !is_typed && given.kind != value.kind;
+    if (is_contradiction || !(keeps_given || keeps_kind)) {
+      *uninterpreted.value = std::move(value);
     }
   }
 
   // Returns whether a given value contradicts its text: values of one kind differ, or the text of an integer is
   // malformed. An integer may stand for a real.
-  static bool contradicts(const Value& said, const Value& value) {
-    if (said.kind == Value::Kind::integer && value.kind == Value::Kind::integer) {
-      return said.adds_node_id != value.adds_node_id || !are_alike(value.integer, said.integer);
+  static bool contradicts(const Value& given, const Value& value) {
+    if (given.kind == Value::Kind::integer && value.kind == Value::Kind::integer) {
+      return given.adds_node_id != value.adds_node_id || !are_alike(value.integer, given.integer);
     }
-    if (said.kind == Value::Kind::octets && value.kind == Value::Kind::octets) {
-      return *said.octets != *value.octets;
+    if (given.kind == Value::Kind::octets && value.kind == Value::Kind::octets) {
+      return *given.octets != *value.octets;
     }
     if (value.kind == Value::Kind::real) {
-      return said.kind == Value::Kind::real && said.real != value.real;
+      return given.kind == Value::Kind::real && given.real != value.real;
     }
-    return said.kind == Value::Kind::integer && value.kind == Value::Kind::malformed;
+    return given.kind == Value::Kind::integer && value.kind == Value::Kind::malformed;
   }
   // Returns whether two integers are equal, or one is the bit pattern of the other, a negative number, in some width.
   static bool are_alike(const Integer& text, const Integer& value) {

@@ -50,7 +50,7 @@ class Collector {
     }
   }
 
-  std::vector<CobId> take() { return std::move(all_); }
+  std::vector<CobId> take_cob_ids() { return std::move(all_); }
   void add(CobId cob_id) { all_.push_back(std::move(cob_id)); }
 
  private:
@@ -76,7 +76,7 @@ std::vector<CobId> cob_ids_of(const Device& device, std::uint8_t node_id) {
   collector.add_range("SDO client", 0x1280, 0x12FF, ", request", ", response");
   collector.add_range("RPDO", 0x1400, 0x15FF, "", "");
   collector.add_range("TPDO", 0x1800, 0x19FF, "", "");
-  return collector.take();
+  return collector.take_cob_ids();
 }
 
 }  // namespace lexican::codict

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file device.hpp
 /// The model of a device description, as plain data for all formats. It has members for data that only one format can
-/// express, too. Data that no standard defines is stored with its name (struct Kept), so that reading loses nothing.
+/// express, too. Data that no standard defines is stored with its name (struct OpaquePart), so that reading loses
+/// nothing.
 ///
 /// Objects are sorted by index, their sub-objects by sub-index, without duplicates. A large device has hundreds of
 /// thousands of entries: members that most of them do not use are Rare.
@@ -21,10 +22,10 @@
 namespace lexican::codict {
 
 /// A part of a description that the model does not interpret: a key, an attribute ("@name"), a section, an element.
-struct Kept {
+struct OpaquePart {
   std::string name;
   Text text;
-  std::vector<Kept> children;
+  std::vector<OpaquePart> children;
   Span span;  ///< of the whole part
 };
 
@@ -39,7 +40,7 @@ struct Label {
 };
 
 /// Names and descriptions of a part, in any number of languages.
-struct Words {
+struct LabelGroup {
   std::vector<Label> labels;
   std::vector<Label> descriptions;
 };
@@ -49,7 +50,7 @@ std::string_view text_in(const std::vector<Label>& labels, std::string_view lang
 
 /// Physical unit of an entry.
 struct Unit {
-  Words words;
+  LabelGroup texts;
   Text multiplier;
   Text uri;
   bool is_given = false;
@@ -58,7 +59,7 @@ struct Unit {
 /// A value of an enumeration, with its name and description.
 struct AllowedValue {
   Value value;
-  Words words;
+  LabelGroup texts;
   Rare<Text> offset;
   Rare<Text> multiplier;
 };
@@ -101,22 +102,22 @@ struct TypeDefinition {
   struct Member {
     Text name;
     Text id;
-    Words words;
+    LabelGroup texts;
     TypeUse type;
     Text size;  ///< in bits
-    std::vector<Kept> others;
+    std::vector<OpaquePart> others;
   };
 
   Kind kind = Kind::structure;
   Text name;
   Text id;
-  Words words;
+  LabelGroup texts;
   TypeUse type;  ///< type of an array's elements, storage type of an enumeration, or base type of a derived type
   Text size;
   std::vector<Bounds> bounds;
   std::vector<Member> members;
   std::vector<AllowedValue> values;  ///< of an enumeration
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
   Span span;
 };
 
@@ -161,9 +162,9 @@ struct Entry {
   Rare<Text> parameter_reference;  ///< ParamRefd of an EDS
 
   Rare<Text> parameter_id;  ///< uniqueID of the parameter that describes the object [311]
-  Rare<Words> words;
-  Rare<Words> denotations;  ///< `denotation` is the first of them [311]
-  Rare<TypeUse> type;       ///< type that the parameter gives, in addition to data_type
+  Rare<LabelGroup> texts;
+  Rare<LabelGroup> denotations;  ///< `denotation` is the first of them [311]
+  Rare<TypeUse> type;            ///< type that the parameter gives, in addition to data_type
   Rare<Unit> unit;
   Rare<Allowed> allowed;
   Rare<Text> access_list;
@@ -176,7 +177,7 @@ struct Entry {
 
   Rare<NodeProperties> node;
   Rare<std::vector<Property>> properties;  ///< all other properties
-  std::vector<Kept> others;                ///< keys, attributes and elements that no standard defines
+  std::vector<OpaquePart> others;          ///< keys, attributes and elements that no standard defines
   Span span;                               ///< beginning: the section's name, or the element's start tag
   Span extent;                             ///< the whole text: the section, or the element
   Span parameter_extent;                   ///< the whole text of the parameter that describes it [311]
@@ -245,7 +246,7 @@ struct ProfileHeader {
   Text source;
   Text class_id;
   Text date;
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
 };
 
 /// Version of a part of the device. [311]
@@ -270,9 +271,9 @@ struct Identity {
   Text build_date;
   Text specification_revision;
   Text instance_name;
-  Words vendor_words;   ///< `vendor_text` is the first of them [311]
-  Words family_words;   ///< `device_family` is the first of them [311]
-  Words product_words;  ///< `product_text` is the first of them [311]
+  LabelGroup vendor_texts;   ///< `vendor_text` is the first of them [311]
+  LabelGroup family_texts;   ///< `device_family` is the first of them [311]
+  LabelGroup product_texts;  ///< `product_text` is the first of them [311]
 };
 
 struct BitRate {
@@ -336,7 +337,7 @@ struct DynamicChannel {
   Field<std::uint32_t> max_number;
   Field<std::uint32_t> offset;         ///< PPOffset, addressOffset
   Field<std::uint32_t> bit_alignment;  ///< [311]
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
 };
 
 /// An object by which a module extends its coupler. [306]
@@ -359,17 +360,17 @@ struct Module {
   std::vector<Object> fixed;
   ObjectList extension_list;
   std::vector<SubExtension> extensions;
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
 };
 
 /// parameterGroup: a group in a hierarchy of parameters. [311]
 struct Group {
   Text id;
-  Words words;
+  LabelGroup texts;
   Text kind_of_access;
   std::vector<Text> parameters;  ///< Entry::parameter_id of the members
   std::vector<Group> groups;
-  std::vector<Kept> others;
+  std::vector<OpaquePart> others;
 };
 
 enum class Format : unsigned char { eds, dcf, xdd10, xdd11, xdc10, xdc11, xpd, nxdd, project_xml, other_xml };
@@ -405,7 +406,7 @@ struct Device {
   std::vector<AllowedTemplate> allowed_templates;
   std::vector<Group> groups;
 
-  std::vector<Kept> others;  ///< sections and elements without a member, such as [Tools] and indicatorList
+  std::vector<OpaquePart> others;  ///< sections and elements without a member, such as [Tools] and indicatorList
 
   const Object* find(std::uint16_t index) const;
   Object* find(std::uint16_t index);

@@ -11,6 +11,15 @@
 
 namespace lexican::codict {
 
+/// Transmission types: values of sub-index 2 of the communication parameters. [301: 7.5.2.35, 7.5.2.37]
+namespace transmission_type {
+inline constexpr std::uint64_t last_synchronous = 240;    ///< 0: acyclic, 1…240: after each 1st to 240th SYNC
+inline constexpr std::uint64_t remote_synchronous = 252;  ///< TPDO sampled at a SYNC, sent on a remote request
+inline constexpr std::uint64_t remote = 253;              ///< TPDO sampled and sent on a remote request
+inline constexpr std::uint64_t event_manufacturer = 254;  ///< event-driven, defined by the manufacturer
+inline constexpr std::uint64_t event_profile = 255;       ///< event-driven, defined by the device profile
+}  // namespace transmission_type
+
 /// Directions of PDOs in which an entry can be mapped.
 struct Directions {
   bool send = false;     ///< in TPDOs

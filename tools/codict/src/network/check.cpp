@@ -15,13 +15,8 @@ namespace lexican::codict::network {
 
 namespace {
 
-constexpr std::uint64_t last_synchronous = 240;
-constexpr std::uint64_t remote_synchronous = 252;
-constexpr std::uint64_t first_event_driven = 254;
-constexpr std::uint64_t event_driven = 255;
-
 std::uint64_t transmission_of(const Network& network, const ActivePdo& pdo) {
-  return network.nodes[pdo.node].number_or(pdo.pdo.communication->index, 2, event_driven);
+  return network.nodes[pdo.node].number_or(pdo.pdo.communication->index, 2, transmission_type::event_profile);
 }
 
 std::uint64_t parameter_of(const Network& network, const ActivePdo& pdo, std::uint8_t sub_index) {
@@ -30,7 +25,8 @@ std::uint64_t parameter_of(const Network& network, const ActivePdo& pdo, std::ui
 
 bool is_synchronous(const Network& network, const ActivePdo& pdo) {
   const std::uint64_t type = transmission_of(network, pdo);
-  return type <= last_synchronous || (type == remote_synchronous && pdo.pdo.is_transmit);
+  return type <= transmission_type::last_synchronous ||
+         (type == transmission_type::remote_synchronous && pdo.pdo.is_transmit);
 }
 
 // Returns "TPDO 1 of drive (node 2)".
@@ -131,8 +127,8 @@ void check_unconnected(const Network& network, const Links& links, std::size_t a
 // applies to types 254 and 255 only. [301:7.5.2.37]
 std::uint64_t longest_period_ms(const Network& network, const ActivePdo& pdo) {
   const std::uint64_t type = transmission_of(network, pdo);
-  if (type == 0 || type > last_synchronous) {
-    return type >= first_event_driven ? parameter_of(network, pdo, 5) : 0;
+  if (type == 0 || type > transmission_type::last_synchronous) {
+    return type >= transmission_type::event_manufacturer ? parameter_of(network, pdo, 5) : 0;
   }
   const int producer = sync_producer(network);
   return producer < 0 ? 0 : type * network.nodes[static_cast<std::size_t>(producer)].number_or(0x1006, 0, 0) / 1000;

@@ -49,7 +49,7 @@ class Writer {
 
   void add_objects();
   void add_pdos();
-  std::vector<Download> take() { return std::move(downloads_); }
+  std::vector<Download> take_downloads() { return std::move(downloads_); }
 
  private:
   bool is_configured(const Entry* entry) const {
@@ -180,7 +180,7 @@ std::vector<Download> downloads_of(const Network& network, std::size_t node, Net
   Writer writer(network, node, findings);
   writer.add_objects();
   writer.add_pdos();
-  return writer.take();
+  return writer.take_downloads();
 }
 
 std::string concise_dcf(const std::vector<Download>& downloads) {

@@ -263,11 +263,10 @@ std::vector<const ActivePdo*> Master::unconnected(const Links& links, bool is_tr
 }
 
 void Master::communication_of(const ActivePdo& partner, std::uint16_t index) {
-  constexpr std::uint64_t event_driven = 255;
-  constexpr std::uint64_t last_synchronous = 240;
   const PlannedPdo* const plan = planned(partner);
-  const std::uint64_t type = network_.nodes[partner.node].number_or(partner.pdo.communication->index, 2, event_driven);
-  const std::uint64_t own_type = type <= last_synchronous ? type : event_driven;
+  const std::uint64_t type =
+      network_.nodes[partner.node].number_or(partner.pdo.communication->index, 2, transmission_type::event_profile);
+  const std::uint64_t own_type = type <= transmission_type::last_synchronous ? type : transmission_type::event_profile;
   const std::uint64_t extended = partner.is_extended ? 0x20000000U : 0U;
   const auto number = [plan](const auto& planned) { return std::to_string(plan != nullptr ? planned(*plan) : 0); };
   std::vector<Sub> subs = {{1, "COB-ID", 7, "rw", hex(partner.identifier | extended), false},

@@ -16,7 +16,7 @@ namespace lexican::codict::network {
 
 /// Value of the plan with its place.
 template <typename T>
-struct Planned {
+struct PlanField {
   T value{};
   Span span;
   bool is_given = false;
@@ -31,14 +31,14 @@ struct PlannedMapping {
 struct PlannedPdo {
   std::uint16_t number = 1;  ///< 1…512
   Span span;
-  Planned<bool> is_enabled{true, {}, false};
-  Planned<std::uint32_t> cob_id;
-  Planned<std::uint8_t> transmission;
-  Planned<std::uint16_t> inhibit_time;    ///< in 100 us
-  Planned<std::uint16_t> event_timer;     ///< in ms
-  Planned<std::uint16_t> event_deadline;  ///< in ms
-  Planned<std::uint8_t> sync_start;
-  Planned<std::vector<PlannedMapping>> mapping;
+  PlanField<bool> is_enabled{true, {}, false};
+  PlanField<std::uint32_t> cob_id;
+  PlanField<std::uint8_t> transmission;
+  PlanField<std::uint16_t> inhibit_time;    ///< in 100 us
+  PlanField<std::uint16_t> event_timer;     ///< in ms
+  PlanField<std::uint16_t> event_deadline;  ///< in ms
+  PlanField<std::uint8_t> sync_start;
+  PlanField<std::vector<PlannedMapping>> mapping;
 };
 
 /// Configured entry; its text is interpreted by its data type.
@@ -55,29 +55,29 @@ using ErrorBehavior = std::vector<std::pair<std::uint8_t, std::uint8_t>>;  // su
 struct PlannedNode {
   std::string name;
   Span span;  ///< place of the name
-  Planned<std::uint8_t> node_id;
-  Planned<std::uint32_t> vendor_id;
-  Planned<std::uint32_t> product_code;
-  Planned<std::uint32_t> revision_number;
-  Planned<std::uint32_t> serial_number;
-  Planned<double> heartbeat_multiplier;
-  Planned<bool> heartbeat_consumer;
-  Planned<std::uint16_t> heartbeat_producer;  ///< in ms
-  Planned<ErrorBehavior> error_behavior;
+  PlanField<std::uint8_t> node_id;
+  PlanField<std::uint32_t> vendor_id;
+  PlanField<std::uint32_t> product_code;
+  PlanField<std::uint32_t> revision_number;
+  PlanField<std::uint32_t> serial_number;
+  PlanField<double> heartbeat_multiplier;
+  PlanField<bool> heartbeat_consumer;
+  PlanField<std::uint16_t> heartbeat_producer;  ///< in ms
+  PlanField<ErrorBehavior> error_behavior;
 };
 
 struct PlannedSlave : PlannedNode {
-  Planned<std::string> description;  ///< path of the description, relative to the plan
-  Planned<std::string> dcf_path;
-  Planned<bool> is_booted{true, {}, false};
-  Planned<bool> is_mandatory;
-  Planned<bool> may_reset{true, {}, false};  ///< reset_communication
-  Planned<std::string> software_file;
-  Planned<std::uint32_t> software_version;
-  Planned<std::string> configuration_file;
-  Planned<std::uint8_t> restore_configuration;  ///< sub-index of 1011h
-  Planned<std::uint16_t> guard_time;            ///< in ms
-  Planned<std::uint8_t> life_time_factor;
+  PlanField<std::string> description;  ///< path of the description, relative to the plan
+  PlanField<std::string> dcf_path;
+  PlanField<bool> is_booted{true, {}, false};
+  PlanField<bool> is_mandatory;
+  PlanField<bool> may_reset{true, {}, false};  ///< reset_communication
+  PlanField<std::string> software_file;
+  PlanField<std::uint32_t> software_version;
+  PlanField<std::string> configuration_file;
+  PlanField<std::uint8_t> restore_configuration;  ///< sub-index of 1011h
+  PlanField<std::uint16_t> guard_time;            ///< in ms
+  PlanField<std::uint8_t> life_time_factor;
   std::vector<PlannedPdo> rpdos;
   std::vector<PlannedPdo> tpdos;
   std::vector<PlannedValue> values;
@@ -91,27 +91,27 @@ enum class Connect : unsigned char {
 };
 
 struct PlannedMaster : PlannedNode {
-  Planned<std::uint32_t> bit_rate{1000, {}, false};  ///< in kbit/s
-  Planned<std::uint16_t> emcy_inhibit_time;          ///< in 100 us
-  Planned<std::uint32_t> sync_period;                ///< in us
-  Planned<std::uint32_t> sync_window;                ///< in us
-  Planned<std::uint8_t> sync_overflow;
-  Planned<std::uint16_t> nmt_inhibit_time;  ///< in 100 us
-  Planned<bool> start{true, {}, false};
-  Planned<bool> start_nodes{true, {}, false};
-  Planned<bool> start_all_nodes;
-  Planned<bool> reset_all_nodes;
-  Planned<bool> stop_all_nodes;
-  Planned<std::uint32_t> boot_time;  ///< in ms
-  Planned<Connect> connect;
+  PlanField<std::uint32_t> bit_rate{1000, {}, false};  ///< in kbit/s
+  PlanField<std::uint16_t> emcy_inhibit_time;          ///< in 100 us
+  PlanField<std::uint32_t> sync_period;                ///< in us
+  PlanField<std::uint32_t> sync_window;                ///< in us
+  PlanField<std::uint8_t> sync_overflow;
+  PlanField<std::uint16_t> nmt_inhibit_time;  ///< in 100 us
+  PlanField<bool> start{true, {}, false};
+  PlanField<bool> start_nodes{true, {}, false};
+  PlanField<bool> start_all_nodes;
+  PlanField<bool> reset_all_nodes;
+  PlanField<bool> stop_all_nodes;
+  PlanField<std::uint32_t> boot_time;  ///< in ms
+  PlanField<Connect> connect;
 };
 
 struct Plan {
-  Planned<std::string> dcf_path;
-  Planned<double> heartbeat_multiplier{3.0, {}, false};
-  Planned<double> load_limit{70.0, {}, false};  ///< in percent
-  Planned<std::uint32_t> event_interval;        ///< in ms: assumed shortest time between events without another bound
-  Planned<std::string> network_name;
+  PlanField<std::string> dcf_path;
+  PlanField<double> heartbeat_multiplier{3.0, {}, false};
+  PlanField<double> load_limit{70.0, {}, false};  ///< in percent
+  PlanField<std::uint32_t> event_interval;        ///< in ms: assumed shortest time between events without another bound
+  PlanField<std::string> network_name;
   PlannedMaster master;
   std::vector<PlannedSlave> slaves;
 };

@@ -103,14 +103,14 @@ class Reader {
   }
 
   template <typename T>
-  void number(const Node& node, Planned<T>& planned, std::uint64_t low, std::uint64_t high) {
+  void number(const Node& node, PlanField<T>& planned, std::uint64_t low, std::uint64_t high) {
     std::uint64_t value = 0;
     if (integer(node, low, high, value)) {
       planned = {static_cast<T>(value), node.span, true};
     }
   }
 
-  void real(const Node& node, Planned<double>& planned, double low, double high) {
+  void real(const Node& node, PlanField<double>& planned, double low, double high) {
     double value = 0;
     const char* const end = node.text.data() + node.text.size();
     const auto [stop, error] = std::from_chars(node.text.data(), end, value);
@@ -122,7 +122,7 @@ class Reader {
     planned = {value, node.span, true};
   }
 
-  void flag(const Node& node, Planned<bool>& planned) {
+  void flag(const Node& node, PlanField<bool>& planned) {
     for (const auto& [word, value] : {std::pair("true", true), std::pair("false", false), std::pair("yes", true),
                                       std::pair("no", false), std::pair("on", true), std::pair("off", false)}) {
       if (node.kind == Node::Kind::scalar && equal_ignoring_case(node.text, word)) {
@@ -133,7 +133,7 @@ class Reader {
     refuse(node, "true or false");
   }
 
-  void text(const Node& node, Planned<std::string>& planned) {
+  void text(const Node& node, PlanField<std::string>& planned) {
     const bool is_text = node.kind == Node::Kind::scalar;
     const bool is_line = node.text.find_first_of("\r\n") == std::string::npos;
     if (!is_text || !is_line) {
@@ -143,7 +143,7 @@ class Reader {
     planned = {node.text, node.span, true};
   }
 
-  void connect(const Node& node, Planned<Connect>& planned) {
+  void connect(const Node& node, PlanField<Connect>& planned) {
     for (const auto& [word, value] :
          {std::pair("all", Connect::all), std::pair("planned", Connect::planned), std::pair("none", Connect::none)}) {
       if (node.kind == Node::Kind::scalar && node.text == word) {
@@ -154,7 +154,7 @@ class Reader {
     refuse(node, "all, planned or none");
   }
 
-  void error_behavior(const Node& node, Planned<ErrorBehavior>& planned) {
+  void error_behavior(const Node& node, PlanField<ErrorBehavior>& planned) {
     const std::string path = path_;
     if (!is_map(node)) {
       return;
@@ -188,7 +188,7 @@ class Reader {
   void read_pdos(const Node& node, std::vector<PlannedPdo>& pdos);
   void read_pdo(const Node& node, PlannedPdo& pdo);
   void read_cob_id(const Node& node, PlannedPdo& pdo);
-  void read_mapping(const Node& node, Planned<std::vector<PlannedMapping>>& mapping);
+  void read_mapping(const Node& node, PlanField<std::vector<PlannedMapping>>& mapping);
   void read_values(const Node& node, std::vector<PlannedValue>& values);
   bool has_name(const Node& name);
   void require(bool is_given, const Node& name, std::string_view key, std::string_view remedy);
@@ -300,7 +300,7 @@ void Reader::read_cob_id(const Node& node, PlannedPdo& pdo) {
   }
 }
 
-void Reader::read_mapping(const Node& node, Planned<std::vector<PlannedMapping>>& mapping) {
+void Reader::read_mapping(const Node& node, PlanField<std::vector<PlannedMapping>>& mapping) {
   const std::string path = path_;
   if (node.kind != Node::Kind::sequence || node.items.size() > 64) {
     refuse(node, "a list of at most 64 objects: - {index: 0x2000, sub_index: 0}");
@@ -308,8 +308,8 @@ void Reader::read_mapping(const Node& node, Planned<std::vector<PlannedMapping>>
   }
   mapping = {{}, node.span, true};
   for (const Node& item : node.items) {
-    Planned<std::uint16_t> index;
-    Planned<std::uint8_t> sub_index;
+    PlanField<std::uint16_t> index;
+    PlanField<std::uint8_t> sub_index;
     map(item, path, {{"index", [&](const Node& n) { number(n, index, 1, 0xFFFF); }}, {"sub_index", [&](const Node& n) {
                                                                                         number(n, sub_index, 0, 255);
                                                                                       }}});
@@ -328,9 +328,9 @@ void Reader::read_values(const Node& node, std::vector<PlannedValue>& values) {
     return;
   }
   for (const Node& item : node.items) {
-    Planned<std::uint16_t> index;
-    Planned<std::uint8_t> sub_index;
-    Planned<std::string> value;
+    PlanField<std::uint16_t> index;
+    PlanField<std::uint8_t> sub_index;
+    PlanField<std::string> value;
     map(item, path,
         {{"index", [&](const Node& n) { number(n, index, 1, 0xFFFF); }},
          {"sub_index", [&](const Node& n) { number(n, sub_index, 0, 255); }},

@@ -48,7 +48,7 @@ class Page {
     text_ += "</tr>\n";
   }
   void end_table() { text_ += "</tbody></table></div>\n"; }
-  std::string take() { return std::move(text_); }
+  std::string take_text() { return std::move(text_); }
 
  private:
   std::string text_;
@@ -94,13 +94,16 @@ std::string transmission_text(const Network& network, const ActivePdo& pdo) {
   const std::uint64_t type = node.number_or(index, 2, 255);
   const std::uint64_t inhibit = node.number_or(index, 3, 0);
   const std::uint64_t event = node.number_or(index, 5, 0);
-  std::string text = type == 1     ? "every SYNC"
-                     : type == 0   ? "synchronous, on events"
-                     : type <= 240 ? fmt::format("every {} SYNC", type)
-                     : type >= 254 ? "event-driven"
-                                   : "on remote requests";
-  text += inhibit != 0 && type >= 254 ? fmt::format(", inhibit time {}.{} ms", inhibit / 10, inhibit % 10) : "";
-  return text + (event != 0 && type >= 254 ? fmt::format(", event timer {} ms", event) : "");
+  std::string text = type == 1                                       ? "every SYNC"
+                     : type == 0                                     ? "synchronous, on events"
+                     : type <= transmission_type::last_synchronous   ? fmt::format("every {} SYNC", type)
+                     : type >= transmission_type::event_manufacturer ? "event-driven"
+                                                                     : "on remote requests";
+  text += inhibit != 0 && type >= transmission_type::event_manufacturer
+              ? fmt::format(", inhibit time {}.{} ms", inhibit / 10, inhibit % 10)
+              : "";
+  return text +
+         (event != 0 && type >= transmission_type::event_manufacturer ? fmt::format(", event timer {} ms", event) : "");
 }
 
 void write_links(const Network& network, const Links& links, Page& page) {
@@ -206,7 +209,7 @@ std::string html_report(const Network& network, const Links& links, const Traffi
   write_traffic(network, traffic, page);
   write_findings(findings, page);
   page.raw("</main>\n</body></html>\n");
-  return page.take();
+  return page.take_text();
 }
 
 }  // namespace lexican::codict::network

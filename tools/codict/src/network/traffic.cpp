@@ -17,8 +17,6 @@ namespace {
 
 constexpr Nanoseconds us = 1000;
 constexpr Nanoseconds ms = 1000 * us;
-constexpr std::uint64_t last_synchronous = 240;
-constexpr std::uint64_t event_manufacturer = 254;
 
 Nanoseconds microseconds(std::uint64_t time) { return static_cast<Nanoseconds>(time) * us; }
 Nanoseconds milliseconds(std::uint64_t time) { return static_cast<Nanoseconds>(time) * ms; }
@@ -105,10 +103,10 @@ void Collector::add_event_driven(const ActivePdo& pdo, const Frame& frame) {
 void Collector::add_pdo(const ActivePdo& pdo) {
   const Node& node = network_.nodes[pdo.node];
   const Frame frame{pdo.identifier, pdo.is_extended, false, pdo.bytes()};
-  const std::uint64_t type = node.number_or(pdo.pdo.communication->index, 2, 255);
-  if (type >= event_manufacturer) {
+  const std::uint64_t type = node.number_or(pdo.pdo.communication->index, 2, transmission_type::event_profile);
+  if (type >= transmission_type::event_manufacturer) {
     add_event_driven(pdo, frame);
-  } else if (type <= last_synchronous) {
+  } else if (type <= transmission_type::last_synchronous) {
     const Nanoseconds period = sync_period_ * static_cast<Nanoseconds>(std::max<std::uint64_t>(type, 1));
     Message& message = add(pdo.title(), pdo.node, frame, period, type == 0 ? 0 : period);
     message.deadline = sync_window_ != 0 ? sync_window_ : sync_period_;

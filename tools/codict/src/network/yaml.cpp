@@ -67,7 +67,7 @@ class Builder final : public YAML::EventHandler {
     const std::uint32_t at = span.begin + static_cast<std::uint32_t>(std::max(mark.column, 0));
     return {std::min(at, span.end), std::min(at, span.end)};
   }
-  Node take() { return std::move(root_); }
+  Node take_root() { return std::move(root_); }
 
  private:
   [[noreturn]] void refuse_anchor(const YAML::Mark& mark) const {
@@ -172,10 +172,10 @@ bool read(const Source& source, Node& root, Findings& findings) {
     if (!parser.HandleNextDocument(builder)) {
       return refuse(findings, {}, "the plan is empty", "describe a master and its nodes");
     }
-    root = builder.take();
+    root = builder.take_root();
     Builder second(source);
     if (parser.HandleNextDocument(second)) {
-      return refuse(findings, second.take().span, "a second document in the file", "remove it");
+      return refuse(findings, second.take_root().span, "a second document in the file", "remove it");
     }
   } catch (const Refusal& refusal) {
     return refuse(findings, refusal.span, refusal.text, refusal.hint);

@@ -91,8 +91,8 @@ std::string message_of(const Finding& finding) {
   return finding.subject.empty() ? finding.text : finding.subject + ": " + finding.text;
 }
 
-std::vector<Folded> fold(const std::vector<Finding>& findings) {
-  std::vector<Folded> folded;
+std::vector<FoldedFindings> fold(const std::vector<Finding>& findings) {
+  std::vector<FoldedFindings> folded;
   std::map<std::pair<const Rule*, std::string>, std::size_t> places;
   for (const Finding& finding : findings) {
     const auto [place, is_new] = places.try_emplace({finding.rule, kind_of(finding)}, folded.size());

@@ -80,13 +80,13 @@ class Findings {
 
 /// Findings of one rule whose texts differ in numbers and quoted names only: the first, and how many follow. Findings
 /// without a place are folded if their texts are equal, because the place does not show the difference.
-struct Folded {
+struct FoldedFindings {
   const Finding* first = nullptr;
   std::size_t more = 0;
   std::string kind;  ///< the common text: "#" replaces each number and each quoted name
 };
 
 /// Folds findings that are alike. The result is in the order of the first finding of each kind.
-std::vector<Folded> fold(const std::vector<Finding>& findings);
+std::vector<FoldedFindings> fold(const std::vector<Finding>& findings);
 
 }  // namespace lexican::codict

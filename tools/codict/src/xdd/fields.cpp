@@ -78,20 +78,20 @@ void report_duplicate(Span place, const Reader& reader) {
   }
 }
 
-Kept kept(const Document& document, pugi::xml_attribute attribute) {
+OpaquePart opaque_part(const Document& document, pugi::xml_attribute attribute) {
   return {"@" + std::string(local_name(attribute)), document.text(attribute), {}, document.span(attribute)};
 }
 
-Kept kept(const Document& document, pugi::xml_node element) {
-  Kept result{std::string(local_name(element)), document.text(element), {}, document.whole(element)};
+OpaquePart opaque_part(const Document& document, pugi::xml_node element) {
+  OpaquePart result{std::string(local_name(element)), document.text(element), {}, document.whole(element)};
   for (const pugi::xml_attribute attribute : element.attributes()) {
     if (!is_syntax(attribute)) {
-      result.children.push_back(kept(document, attribute));
+      result.children.push_back(opaque_part(document, attribute));
     }
   }
   for (const pugi::xml_node child : element.children()) {
     if (child.type() == pugi::node_element) {
-      result.children.push_back(kept(document, child));
+      result.children.push_back(opaque_part(document, child));
     }
   }
   return result;
@@ -111,39 +111,41 @@ bool is_named(std::string_view name, std::string_view wanted, Span span, const R
   return true;
 }
 
-void keep(pugi::xml_attribute attribute, std::vector<Kept>& others, const Reader& reader) {
-  others.push_back(kept(reader.document, attribute));
+void store_opaque(pugi::xml_attribute attribute, std::vector<OpaquePart>& others, const Reader& reader) {
+  others.push_back(opaque_part(reader.document, attribute));
   report_unknown(local_name(attribute), others.back().span, "attribute", reader);
 }
 
-void keep(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
-  others.push_back(kept(reader.document, element));
+void store_opaque(pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader) {
+  others.push_back(opaque_part(reader.document, element));
   report_unknown(local_name(element), reader.document.tag(element), "element", reader);
 }
 
-void keep_rest(pugi::xml_node element, std::vector<Kept> rest, std::vector<Kept>& others, const Reader& reader) {
-  if (!rest.empty()) {
-    others.push_back({std::string(local_name(element)), {}, std::move(rest), reader.document.tag(element)});
+void store_remainder(pugi::xml_node element, std::vector<OpaquePart> opaque, std::vector<OpaquePart>& others,
+                     const Reader& reader) {
+  if (!opaque.empty()) {
+    others.push_back({std::string(local_name(element)), {}, std::move(opaque), reader.document.tag(element)});
   }
 }
 
-Text text_of(pugi::xml_node element, std::string_view attribute, std::vector<Kept>& others, const Reader& reader) {
+Text text_of(pugi::xml_node element, std::string_view attribute, std::vector<OpaquePart>& others,
+             const Reader& reader) {
   Text text = reader.document.text(element);
   text.is_given = !attribute.empty() ? text.is_given : true;
-  std::vector<Kept> rest;
+  std::vector<OpaquePart> opaque;
   for (const pugi::xml_attribute candidate : element.attributes()) {
     if (!attribute.empty() && !text.is_given && local_name(candidate) == attribute) {
       text = reader.document.text(candidate);
     } else if (!is_syntax(candidate)) {
-      keep(candidate, rest, reader);
+      store_opaque(candidate, opaque, reader);
     }
   }
   for (const pugi::xml_node child : element.children()) {
     if (child.type() == pugi::node_element) {
-      keep(child, rest, reader);
+      store_opaque(child, opaque, reader);
     }
   }
-  keep_rest(element, std::move(rest), others, reader);
+  store_remainder(element, std::move(opaque), others, reader);
   return text;
 }
 

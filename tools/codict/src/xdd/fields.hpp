@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file fields.hpp
-/// Assignment of attributes and elements to members of the model, by tables. The rest is kept.
+/// Assignment of attributes and elements to members of the model, by tables. Other parts are stored as OpaquePart.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ namespace lexican::codict::xdd {
 using Ids = std::unordered_map<std::string_view, pugi::xml_node>;
 
 /// Use of a parameter by objects.
-struct Use {
+struct ParameterUse {
   std::size_t references = 0;  ///< number of the objects that refer to the parameter and have not been read yet
   bool is_read = false;
 };
@@ -36,7 +36,7 @@ struct Shared {
   Ids parameters;
   Ids templates;
   Ids enum_entries;                                           ///< of maxon: entries of enumerations
-  std::unordered_map<std::string_view, Use> uses;             ///< of the parameters by objects, by id
+  std::unordered_map<std::string_view, ParameterUse> uses;    ///< of the parameters by objects, by id
   std::unordered_map<std::string_view, std::uint16_t> codes;  ///< codes of the types that have been looked up
   std::vector<pugi::xml_node> indexed;                        ///< parameters of maxon that have an index
   std::vector<bool> objects = std::vector<bool>(0x10000);     ///< by index: true for those that exist
@@ -51,8 +51,8 @@ struct Reader {
   Shared& shared;
 };
 
-Kept kept(const Document& document, pugi::xml_attribute attribute);
-Kept kept(const Document& document, pugi::xml_node element);
+OpaquePart opaque_part(const Document& document, pugi::xml_attribute attribute);
+OpaquePart opaque_part(const Document& document, pugi::xml_node element);
 
 /// Returns whether an attribute belongs to XML, such as the declaration of a namespace.
 bool is_syntax(pugi::xml_attribute attribute);
@@ -61,11 +61,12 @@ bool is_leaf(pugi::xml_node element);  ///< has neither child elements nor attri
 /// Returns whether a name equals `wanted`. Adds a finding if it differs in capitals.
 bool is_named(std::string_view name, std::string_view wanted, Span span, const Reader& reader);
 
-/// Keep an attribute or element without a slot. Add a finding if CiA 311 does not define it.
-void keep(pugi::xml_attribute attribute, std::vector<Kept>& others, const Reader& reader);
-void keep(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
-/// Keeps the parts of an element that the reader left (`rest`), if there are any, under the name of the element.
-void keep_rest(pugi::xml_node element, std::vector<Kept> rest, std::vector<Kept>& others, const Reader& reader);
+/// Store an attribute or element without a slot. Add a finding if CiA 311 does not define it.
+void store_opaque(pugi::xml_attribute attribute, std::vector<OpaquePart>& others, const Reader& reader);
+void store_opaque(pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader);
+/// Stores the parts of an element that the reader has not interpreted, if there are any, under the name of the element.
+void store_remainder(pugi::xml_node element, std::vector<OpaquePart> opaque, std::vector<OpaquePart>& others,
+                     const Reader& reader);
 
 void report_duplicate(Span place, const Reader& reader);
 
@@ -96,17 +97,17 @@ bool read_into(T& target, std::string_view name, Text text, Span place, const st
   return false;
 }
 
-/// Reads all attributes of an element. Those without a slot are kept.
+/// Reads all attributes of an element. Those without a slot are stored as opaque.
 template <typename T, std::size_t size>
 void read_attributes(T& target, pugi::xml_node element, const std::array<Slot<T>, size>& slots,
-                     std::vector<Kept>& others, const Reader& reader) {
+                     std::vector<OpaquePart>& others, const Reader& reader) {
   for (const pugi::xml_attribute attribute : element.attributes()) {
     if (is_syntax(attribute)) {
       continue;
     }
     const Span place = reader.document.span(attribute);
     if (!read_into(target, local_name(attribute), reader.document.text(attribute), place, slots, reader)) {
-      keep(attribute, others, reader);
+      store_opaque(attribute, others, reader);
     }
   }
 }
@@ -121,15 +122,15 @@ bool read_leaf(T& target, pugi::xml_node child, const std::array<Slot<T>, size>&
 /// Reads attributes and children. call(child) is called first for each child, and returns whether it has read the
 /// child.
 template <typename T, std::size_t size, typename Call>
-void read_element(T& target, pugi::xml_node element, const std::array<Slot<T>, size>& slots, std::vector<Kept>& others,
-                  const Reader& reader, const Call& call) {
+void read_element(T& target, pugi::xml_node element, const std::array<Slot<T>, size>& slots,
+                  std::vector<OpaquePart>& others, const Reader& reader, const Call& call) {
   read_attributes(target, element, slots, others, reader);
   bool has_text = false;
   for (const pugi::xml_node child : element.children()) {
     const bool is_element = child.type() == pugi::node_element;
     has_text = has_text || !is_element;
     if (is_element && !call(child) && !read_leaf(target, child, slots, reader)) {
-      keep(child, others, reader);
+      store_opaque(child, others, reader);
     }
   }
   Text text = has_text ? reader.document.text(element) : Text();
@@ -140,14 +141,14 @@ void read_element(T& target, pugi::xml_node element, const std::array<Slot<T>, s
 
 /// Reads the children of an element, and keeps its attributes.
 template <typename Call>
-void read_children(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader, const Call& call) {
-  constexpr std::array<Slot<Kept>, 0> none = {};
-  Kept nothing;
+void read_children(pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader, const Call& call) {
+  constexpr std::array<Slot<OpaquePart>, 0> none = {};
+  OpaquePart nothing;
   read_element(nothing, element, none, others, reader, call);
 }
 
-/// Returns the text of an element, or the value of its attribute with this name. Keeps the rest.
-Text text_of(pugi::xml_node element, std::string_view attribute, std::vector<Kept>& others, const Reader& reader);
+/// Returns the text of an element, or the value of its attribute with this name. Stores other parts as opaque.
+Text text_of(pugi::xml_node element, std::string_view attribute, std::vector<OpaquePart>& others, const Reader& reader);
 
 /// Returns the text of an attribute, without findings; not given if there is none.
 Text attribute_text(pugi::xml_node element, std::string_view name, const Reader& reader);

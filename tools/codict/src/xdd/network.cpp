@@ -71,15 +71,15 @@ bool read_bit_rate(const Text& text, std::uint32_t& kbit, const Reader& reader) 
   }
   const std::size_t end = std::min(text.text.find_first_not_of("0123456789"), text.text.size());
   const ParsedInteger number = parse_integer(std::string_view(text.text).substr(0, end));
-  const std::string_view rest = trimmed(std::string_view(text.text).substr(end));
-  const bool is_kbit = rest.empty() || equal_ignoring_case(rest, "Kbps") || equal_ignoring_case(rest, "kbit/s");
+  const std::string_view suffix = trimmed(std::string_view(text.text).substr(end));
+  const bool is_kbit = suffix.empty() || equal_ignoring_case(suffix, "Kbps") || equal_ignoring_case(suffix, "kbit/s");
   if (!number.is_number() || !is_kbit || number.value.magnitude > u32) {
     reader.findings.add(rules::bit_rate, text.span, fmt::format("{} is not a bit rate", in_quotes(text.text)),
                         "write 125 Kbps");
     return false;
   }
   const auto value = static_cast<std::uint32_t>(number.value.magnitude);
-  const bool is_in_bits = rest.empty() && value >= 10000;
+  const bool is_in_bits = suffix.empty() && value >= 10000;
   kbit = is_in_bits ? value / 1000 : value;
   if (text.text.substr(end) != unit) {
     reader.findings.add(rules::bit_rate, text.span, fmt::format("{} is read as {} kbit/s", in_quotes(text.text), kbit),
@@ -88,26 +88,26 @@ bool read_bit_rate(const Text& text, std::uint32_t& kbit, const Reader& reader) 
   return true;
 }
 
-void read_supported_rate(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+void read_supported_rate(pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader) {
   BitRate rate;
   static_cast<Text&>(rate.supported) = text_of(element, "value", others, reader);
   rate.supported.value = read_bit_rate(rate.supported, rate.kbit, reader);
   reader.device.features.bit_rates.push_back(std::move(rate));
 }
 
-void read_bit_rates(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+void read_bit_rates(pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader) {
   constexpr std::array<Slot<Features>, 1> slots = {
       {{"defaultValue", [](Features& f) -> Text& { return f.default_bit_rate; }}}};
-  std::vector<Kept> rest;
+  std::vector<OpaquePart> opaque;
   Features& features = reader.device.features;
-  read_element(features, element, slots, rest, reader, [&](pugi::xml_node child) {
+  read_element(features, element, slots, opaque, reader, [&](pugi::xml_node child) {
     if (local_name(child) != "supportedBaudRate") {
       return false;
     }
-    read_supported_rate(child, rest, reader);
+    read_supported_rate(child, opaque, reader);
     return true;
   });
-  keep_rest(element, std::move(rest), others, reader);
+  store_remainder(element, std::move(opaque), others, reader);
   if (!features.default_bit_rate.is_empty()) {
     read_bit_rate(features.default_bit_rate, features.default_bit_rate.value, reader);
   }
@@ -126,12 +126,12 @@ void interpret_general(Features& features, Findings& findings) {
   }
 }
 
-void read_commissioning(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
-  std::vector<Kept> rest;
+void read_commissioning(pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader) {
+  std::vector<OpaquePart> opaque;
   Commissioning& commissioning = reader.device.commissioning;
   commissioning.is_given = true;
-  read_element(commissioning, element, commissioning_slots, rest, reader, no_child);
-  keep_rest(element, std::move(rest), others, reader);
+  read_element(commissioning, element, commissioning_slots, opaque, reader, no_child);
+  store_remainder(element, std::move(opaque), others, reader);
   interpret_number(commissioning.node_id, u8, reader.findings);
   interpret_number(commissioning.network_number, u32, reader.findings);
   interpret_boolean(commissioning.is_manager, reader.findings);
@@ -140,16 +140,16 @@ void read_commissioning(pugi::xml_node element, std::vector<Kept>& others, const
   }
 }
 
-bool read_management_part(pugi::xml_node child, std::vector<Kept>& others, const Reader& reader) {
+bool read_management_part(pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader) {
   const std::string_view name = local_name(child);
   const Span place = reader.document.tag(child);
   Features& features = reader.device.features;
-  std::vector<Kept> rest;
+  std::vector<OpaquePart> opaque;
   if (name == "CANopenGeneralFeatures") {
-    read_element(features, child, general_slots, rest, reader, no_child);
+    read_element(features, child, general_slots, opaque, reader, no_child);
     interpret_general(features, reader.findings);
   } else if (name == "CANopenMasterFeatures") {
-    read_element(features, child, master_slots, rest, reader, no_child);
+    read_element(features, child, master_slots, opaque, reader, no_child);
     for (Field<bool>* flag : {&features.boot_up_master, &features.flying_master, &features.sdo_manager,
                               &features.configuration_manager, &features.lss_master}) {
       interpret_boolean(*flag, reader.findings);
@@ -160,12 +160,12 @@ bool read_management_part(pugi::xml_node child, std::vector<Kept>& others, const
   } else {
     return false;
   }
-  keep_rest(child, std::move(rest), others, reader);
+  store_remainder(child, std::move(opaque), others, reader);
   return true;
 }
 
 // Reads entry="Dummy0001=0".
-bool read_dummy(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+bool read_dummy(pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader) {
   constexpr std::string_view word = "Dummy";
   const Text entry = attribute_text(element, "entry", reader);
   const std::string_view text = entry.text;
@@ -176,7 +176,7 @@ bool read_dummy(pugi::xml_node element, std::vector<Kept>& others, const Reader&
     reader.findings.add(rules::dummy, entry.is_given ? entry.span : reader.document.tag(element),
                         fmt::format("{} is not a dummy entry; not used", in_quotes(entry.text)),
                         "write Dummy0001=0 or Dummy0001=1");
-    others.push_back(kept(reader.document, element));
+    others.push_back(opaque_part(reader.document, element));
     return true;
   }
   Dummy dummy;
@@ -232,24 +232,25 @@ bool read_channel(pugi::xml_node element, const Reader& reader) {
 
 }  // namespace
 
-bool read_network_part(pugi::xml_node child, std::vector<Kept>& others, const Reader& reader) {
+bool read_network_part(pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader) {
   const std::string_view name = local_name(child);
-  std::vector<Kept> rest;
+  std::vector<OpaquePart> opaque;
   if (name == "baudRate") {
     read_bit_rates(child, others, reader);
     return true;
   }
   if (name == "NetworkManagement") {
-    read_children(child, rest, reader, [&](pugi::xml_node part) { return read_management_part(part, rest, reader); });
+    read_children(child, opaque, reader,
+                  [&](pugi::xml_node part) { return read_management_part(part, opaque, reader); });
   } else if (name == "dummyUsage") {
-    read_children(child, rest, reader,
-                  [&](pugi::xml_node part) { return local_name(part) == "dummy" && read_dummy(part, rest, reader); });
+    read_children(child, opaque, reader,
+                  [&](pugi::xml_node part) { return local_name(part) == "dummy" && read_dummy(part, opaque, reader); });
   } else if (name == "dynamicChannels") {
-    read_children(child, rest, reader, [&](pugi::xml_node part) { return read_channel(part, reader); });
+    read_children(child, opaque, reader, [&](pugi::xml_node part) { return read_channel(part, reader); });
   } else {
     return false;
   }
-  keep_rest(child, std::move(rest), others, reader);
+  store_remainder(child, std::move(opaque), others, reader);
   return true;
 }
 

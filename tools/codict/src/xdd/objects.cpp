@@ -47,7 +47,7 @@ bool is_object(std::string_view name) { return name == "CANopenObject" || name =
 bool is_sub(std::string_view name) { return name == "CANopenSubObject" || name == "SubObject"; }
 
 // Collects a sub-object, or the sub-objects of a SubObjectList. Returns false for other elements.
-bool take_subs(pugi::xml_node child, std::vector<pugi::xml_node>& subs) {
+bool read_subs(pugi::xml_node child, std::vector<pugi::xml_node>& subs) {
   if (is_sub(local_name(child))) {
     subs.push_back(child);
     return true;
@@ -68,7 +68,8 @@ Part read_part(pugi::xml_node element, const Reader& reader) {
   part.span = reader.document.tag(element);
   part.extent = reader.document.whole(element);
   read_element(part, element, part_slots, part.others, reader, [&](pugi::xml_node child) {
-    return take_subs(child, part.subs) || (is_word(child) && read_word(part.words.edit(), child, part.others, reader));
+    return read_subs(child, part.subs) ||
+           (is_label_element(child) && read_label_element(part.texts.edit(), child, part.others, reader));
   });
   if (NodeProperties* const node = part.node.if_any()) {
     node->storage_group.value = node->storage_group.text;
@@ -188,7 +189,7 @@ bool is_same_access(Access own, Access of_parameter) {
   return own == of_parameter || (own == Access::rw && (of_parameter == Access::rwr || of_parameter == Access::rww));
 }
 
-void append(std::vector<Kept>& to, std::vector<Kept>& from) {
+void append(std::vector<OpaquePart>& to, std::vector<OpaquePart>& from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
@@ -236,7 +237,7 @@ pugi::xml_node parameter_of(const Entry& own, const Reader& reader) {
                         "correct uniqueIDRef, or add the parameter");
     return {};
   }
-  Use& use = reader.shared.uses[id];
+  ParameterUse& use = reader.shared.uses[id];
   use.references -= use.references != 0 ? 1 : 0;
   const bool is_readable = !std::exchange(use.is_read, true) || may_copy(element, reader);
   return is_readable ? element : pugi::xml_node();
@@ -266,7 +267,7 @@ void complete(Entry& entry, Entry& own, const Reader& reader) {
 // Uses a label, preferably in English, as the name of an entry without one.
 void complete_name(Entry& entry) {
   if (!entry.name.is_given) {
-    entry.name.text = text_in(entry.words->labels, "en");
+    entry.name.text = text_in(entry.texts->labels, "en");
   }
 }
 
@@ -356,7 +357,7 @@ void read_subs(Object& object, const std::vector<pugi::xml_node>& elements, cons
     Part part = read_part(element, reader);
     std::uint64_t number = 0;
     if (!read_number(part.number, 2, 0xFF, part.span, number, reader) || !is_first(seen, number, part.span, reader)) {
-      object.others.push_back(kept(reader.document, element));
+      object.others.push_back(opaque_part(reader.document, element));
       continue;
     }
     Sub& sub = object.subs.emplace_back();
@@ -469,7 +470,7 @@ void read_flags(Entry& entry, pugi::xml_node element, const Reader& reader) {
                                                    : PdoMapping::no;
 }
 
-struct Indexed {
+struct IndexedParameter {
   Entry entry;
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
@@ -482,7 +483,7 @@ bool read_leaf_number(pugi::xml_node element, const char* name, std::uint64_t la
   return leaf && read_number(reader.document.text(leaf), 0, largest, reader.document.tag(leaf), value, reader);
 }
 
-bool read_indexed(pugi::xml_node element, Indexed& indexed, const Reader& reader) {
+bool read_indexed(pugi::xml_node element, IndexedParameter& indexed, const Reader& reader) {
   std::uint64_t index = 0;
   std::uint64_t sub_index = 0;
   if (!read_leaf_number(element, "index", 0xFFFF, index, reader) ||
@@ -512,7 +513,7 @@ void simplify(Object& object) {
 }
 
 // Adds an entry to its object. Returns false if the object already has such an entry.
-bool add_indexed(std::map<std::uint16_t, Object>& objects, Indexed& indexed) {
+bool add_indexed(std::map<std::uint16_t, Object>& objects, IndexedParameter& indexed) {
   const auto [place, is_new] = objects.try_emplace(indexed.index);
   Object& object = place->second;
   if (is_new) {
@@ -540,7 +541,7 @@ bool add_indexed(std::map<std::uint16_t, Object>& objects, Indexed& indexed) {
 void read_indexed_parameters(const Reader& reader) {
   std::map<std::uint16_t, Object> objects;
   for (const pugi::xml_node element : reader.shared.indexed) {
-    Indexed indexed;
+    IndexedParameter indexed;
     const bool is_read = read_indexed(element, indexed, reader);
     if (is_read && add_indexed(objects, indexed)) {
       continue;
@@ -550,7 +551,7 @@ void read_indexed_parameters(const Reader& reader) {
                           fmt::format("duplicate {:04X}h:{:02X}; the first is used", indexed.index, indexed.sub_index),
                           "remove one of them, or correct its number");
     }
-    reader.device.others.push_back(kept(reader.document, element));
+    reader.device.others.push_back(opaque_part(reader.document, element));
   }
   for (auto& [index, object] : objects) {
     sort_by(object.subs, [](const Sub& sub) { return sub.sub_index; });
@@ -600,17 +601,17 @@ void finish_parameter(Entry& entry, const Reader& reader) {
 
 void interpret_access(Field<Access>& access, bool is_parameter, const Reader& reader) {
   // Indexed by Access.
-  constexpr std::array<std::string_view, 8> parameter_words = {
+  constexpr std::array<std::string_view, 8> access_names = {
       "", "noAccess", "read", "write", "readWrite", "readWriteInput", "readWriteOutput", "const"};
   if (access.is_empty()) {
     return;
   }
   const auto* const word =
-      std::find_if(parameter_words.begin() + 1, parameter_words.end(),
+      std::find_if(access_names.begin() + 1, access_names.end(),
                    [&access](std::string_view candidate) { return equal_ignoring_case(candidate, access.text); });
   const Access of_object = access_named(access.text);
   const Access of_parameter =
-      word != parameter_words.end() ? static_cast<Access>(word - parameter_words.begin()) : Access::unknown;
+      word != access_names.end() ? static_cast<Access>(word - access_names.begin()) : Access::unknown;
   access.value =
       of_parameter != Access::unknown && (is_parameter || of_object == Access::unknown) ? of_parameter : of_object;
   if (access.value == Access::unknown) {
@@ -619,7 +620,7 @@ void interpret_access(Field<Access>& access, bool is_parameter, const Reader& re
     return;
   }
   const std::string_view right =
-      is_parameter ? parameter_words[static_cast<std::size_t>(access.value)] : name_of(access.value);
+      is_parameter ? access_names[static_cast<std::size_t>(access.value)] : name_of(access.value);
   if (access.text != right) {
     reader.findings.add(rules::access_case, access.span,
                         fmt::format("{} is not the word of CiA 311", in_quotes(access.text)),
@@ -671,25 +672,25 @@ void count_references(pugi::xml_node element, const Reader& reader) {
 }
 
 void read_object_list(pugi::xml_node element, const Reader& reader) {
-  std::vector<Kept> rest;
+  std::vector<OpaquePart> opaque;
   std::vector<bool>& seen = reader.shared.objects;
   const auto children = element.children();
   const auto objects = std::count_if(children.begin(), children.end(),
                                      [](pugi::xml_node child) { return is_object(local_name(child)); });
   reader.device.objects.reserve(std::min(static_cast<std::size_t>(objects), seen.size()));
   pugi::xml_node done;  // the object that has been read: it is freed when the reader has left it
-  read_element(reader.device, element, count_slots, rest, reader, [&](pugi::xml_node child) {
+  read_element(reader.device, element, count_slots, opaque, reader, [&](pugi::xml_node child) {
     const bool is_one = is_object(local_name(child));
     if (is_one) {
       element.remove_child(done);
       done = child;
     }
     if (is_one && !read_object(child, seen, reader)) {
-      rest.push_back(kept(reader.document, child));
+      opaque.push_back(opaque_part(reader.document, child));
     }
     return is_one;
   });
-  keep_rest(element, std::move(rest), reader.device.others, reader);
+  store_remainder(element, std::move(opaque), reader.device.others, reader);
 }
 
 void finish_objects(const Reader& reader) {

@@ -34,10 +34,10 @@ constexpr std::array<std::string_view, 8> child_order = {
 
 // Returns the place of a child element in the schema: 0 for words, 1 for a type, from 2 for `child_order`.
 std::size_t rank_of(std::string_view name) {
-  constexpr std::size_t of_words = 0;
+  constexpr std::size_t of_labels = 0;
   constexpr std::size_t of_type = 1;
   if (std::find(word_names.begin(), word_names.end(), name) != word_names.end()) {
-    return of_words;
+    return of_labels;
   }
   const auto* const place = std::find(child_order.begin(), child_order.end(), name);
   const bool is_type = place == child_order.end() &&
@@ -64,10 +64,11 @@ void check_order(pugi::xml_node element, const Reader& reader) {
 }
 
 void read_denotation(Entry& entry, pugi::xml_node element, const Reader& reader) {
-  std::vector<Kept> rest;
-  read_children(element, rest, reader,
-                [&](pugi::xml_node child) { return read_word(entry.denotations.edit(), child, rest, reader); });
-  keep_rest(element, std::move(rest), entry.others, reader);
+  std::vector<OpaquePart> opaque;
+  read_children(element, opaque, reader, [&](pugi::xml_node child) {
+    return read_label_element(entry.denotations.edit(), child, opaque, reader);
+  });
+  store_remainder(element, std::move(opaque), entry.others, reader);
   entry.denotation = first_of(entry.denotations);
 }
 
@@ -79,15 +80,15 @@ void interpret_storage_group(Field<std::string>& group) {
 }
 
 void interpret_srdo(Field<SrdoAccess>& srdo, Findings& findings) {
-  constexpr std::array<std::string_view, 4> words = {"no", "tx", "rx", "trx"};  // indexed by SrdoAccess
-  const auto* const word = std::find_if(words.begin(), words.end(), [&srdo](std::string_view candidate) {
+  constexpr std::array<std::string_view, 4> texts = {"no", "tx", "rx", "trx"};  // indexed by SrdoAccess
+  const auto* const word = std::find_if(texts.begin(), texts.end(), [&srdo](std::string_view candidate) {
     return equal_ignoring_case(candidate, srdo.text);
   });
-  if (word == words.end()) {
+  if (word == texts.end()) {
     findings.add(rules::property, srdo.span, fmt::format("{} is not an SRDO access, read as no", in_quotes(srdo.text)),
                  "write tx, rx, trx or no");
   } else {
-    srdo.value = static_cast<SrdoAccess>(word - words.begin());
+    srdo.value = static_cast<SrdoAccess>(word - texts.begin());
   }
 }
 
@@ -135,9 +136,9 @@ void read_property(Entry& entry, pugi::xml_node element, const Reader& reader) {
   constexpr std::array<Slot<Raw>, 2> slots = {
       {{"name", [](Raw& r) -> Text& { return r.name; }}, {"value", [](Raw& r) -> Text& { return r.value; }}}};
   Raw raw;
-  std::vector<Kept> rest;
-  read_element(raw, element, slots, rest, reader, [](pugi::xml_node) { return false; });
-  keep_rest(element, std::move(rest), entry.others, reader);
+  std::vector<OpaquePart> opaque;
+  read_element(raw, element, slots, opaque, reader, [](pugi::xml_node) { return false; });
+  store_remainder(element, std::move(opaque), entry.others, reader);
   if (!read_into(entry.node.edit(), raw.name.text, raw.value, raw.name.span, property_slots, reader)) {
     check_property_name(raw.name, reader.findings);
     entry.properties.edit().push_back({raw.name.text, raw.value});
@@ -171,7 +172,7 @@ bool read_parameter_part(Entry& entry, pugi::xml_node child, const Reader& reade
   } else if (name == "property") {
     read_property(entry, child, reader);
   } else {
-    return (is_word(child) && read_word(entry.words.edit(), child, entry.others, reader)) ||
+    return (is_label_element(child) && read_label_element(entry.texts.edit(), child, entry.others, reader)) ||
            read_parameter_value(entry, child, reader) || read_type(entry.type.edit(), child, entry.others, reader);
   }
   return true;
@@ -210,7 +211,7 @@ void inherit(Entry& entry, const Reader& reader) {
   for (const pugi::xml_node child : element.children()) {
     if (entry.type->code == 0 && !entry.type->reference.is_given && child.type() == pugi::node_element) {
       TypeUse type;
-      std::vector<Kept> ignored;
+      std::vector<OpaquePart> ignored;
       read_type(type, child, ignored, reader);
       entry.type.edit().code = type.code;
     }
@@ -257,9 +258,9 @@ void collect_all_ids(pugi::xml_node process, const Reader& reader) {
   }
 }
 
-void read_templates(pugi::xml_node list, std::vector<Kept>& others, const Reader& reader) {
-  std::vector<Kept> rest;
-  read_children(list, rest, reader, [&](pugi::xml_node child) {
+void read_templates(pugi::xml_node list, std::vector<OpaquePart>& others, const Reader& reader) {
+  std::vector<OpaquePart> opaque;
+  read_children(list, opaque, reader, [&](pugi::xml_node child) {
     const std::string_view name = local_name(child);
     if (name == "parameterTemplate") {
       read_parameter(child, reader.device.templates.emplace_back(), reader);
@@ -268,13 +269,13 @@ void read_templates(pugi::xml_node list, std::vector<Kept>& others, const Reader
     }
     if (name == "allowedValuesTemplate" || name == "allowedValues") {
       AllowedTemplate& result = reader.device.allowed_templates.emplace_back();
-      result.id = read_allowed(result.allowed, child, rest, reader);
+      result.id = read_allowed(result.allowed, child, opaque, reader);
       interpret_allowed(result.allowed, data_type(0), reader);
       return true;
     }
     return false;
   });
-  keep_rest(list, std::move(rest), others, reader);
+  store_remainder(list, std::move(opaque), others, reader);
 }
 
 void read_member(Group& group, pugi::xml_node element, const Reader& reader) {
@@ -300,40 +301,40 @@ Group read_group(pugi::xml_node element, const Reader& reader) {
       read_member(group, child, reader);
       return true;
     }
-    return read_word(group.words, child, group.others, reader);
+    return read_label_element(group.texts, child, group.others, reader);
   });
   return group;
 }
 
-void read_groups(pugi::xml_node list, std::vector<Kept>& others, const Reader& reader) {
-  std::vector<Kept> rest;
-  read_children(list, rest, reader, [&](pugi::xml_node child) {
+void read_groups(pugi::xml_node list, std::vector<OpaquePart>& others, const Reader& reader) {
+  std::vector<OpaquePart> opaque;
+  read_children(list, opaque, reader, [&](pugi::xml_node child) {
     if (local_name(child) != "parameterGroup") {
       return false;
     }
     reader.device.groups.push_back(read_group(child, reader));
     return true;
   });
-  keep_rest(list, std::move(rest), others, reader);
+  store_remainder(list, std::move(opaque), others, reader);
 }
 
-void read_types(pugi::xml_node list, std::vector<Kept>& others, const Reader& reader) {
-  std::vector<Kept> rest;
-  read_children(list, rest, reader, [&](pugi::xml_node child) {
+void read_types(pugi::xml_node list, std::vector<OpaquePart>& others, const Reader& reader) {
+  std::vector<OpaquePart> opaque;
+  read_children(list, opaque, reader, [&](pugi::xml_node child) {
     if (!is_definition(child)) {
       return false;
     }
     reader.device.types.push_back(read_definition(child, reader));
     return true;
   });
-  keep_rest(list, std::move(rest), others, reader);
+  store_remainder(list, std::move(opaque), others, reader);
 }
 
 // Collects the parameters of maxon, which are objects. Other parameters are read when an object refers to them, or at
 // the end.
-void read_parameters(pugi::xml_node list, std::vector<Kept>& others, const Reader& reader) {
-  std::vector<Kept> rest;
-  read_children(list, rest, reader, [&](pugi::xml_node child) {
+void read_parameters(pugi::xml_node list, std::vector<OpaquePart>& others, const Reader& reader) {
+  std::vector<OpaquePart> opaque;
+  read_children(list, opaque, reader, [&](pugi::xml_node child) {
     const std::string_view name = local_name(child);
     if (child.child("index") && (name == "parameter" || name == "structuredParameter")) {
       reader.shared.indexed.push_back(child);
@@ -341,7 +342,7 @@ void read_parameters(pugi::xml_node list, std::vector<Kept>& others, const Reade
     }
     return name == "parameter";
   });
-  keep_rest(list, std::move(rest), others, reader);
+  store_remainder(list, std::move(opaque), others, reader);
 }
 
 }  // namespace
@@ -366,23 +367,23 @@ void read_parameter(pugi::xml_node element, Entry& entry, const Reader& reader) 
 
 void read_process(pugi::xml_node element, const Reader& reader) {
   collect_all_ids(element, reader);
-  std::vector<Kept> rest;
-  read_children(element, rest, reader, [&](pugi::xml_node child) {
+  std::vector<OpaquePart> opaque;
+  read_children(element, opaque, reader, [&](pugi::xml_node child) {
     const std::string_view name = local_name(child);
     if (name == "dataTypeList") {
-      read_types(child, rest, reader);
+      read_types(child, opaque, reader);
     } else if (name == "parameterList") {
-      read_parameters(child, rest, reader);
+      read_parameters(child, opaque, reader);
     } else if (name == "templateList") {
-      read_templates(child, rest, reader);
+      read_templates(child, opaque, reader);
     } else if (name == "parameterGroupList") {
-      read_groups(child, rest, reader);
+      read_groups(child, opaque, reader);
     } else {
       return false;
     }
     return true;
   });
-  keep_rest(element, std::move(rest), reader.device.others, reader);
+  store_remainder(element, std::move(opaque), reader.device.others, reader);
 }
 
 void read_unused_parameters(pugi::xml_node list, const Reader& reader) {

@@ -9,19 +9,19 @@
 
 namespace lexican::codict::xdd {
 
-// words.cpp
+// labels.cpp
 /// Returns whether an element is a label or description, or a reference to one.
-bool is_word(pugi::xml_node element);
-bool read_word(Words& words, pugi::xml_node child, std::vector<Kept>& others, const Reader& reader);
+bool is_label_element(pugi::xml_node element);
+bool read_label_element(LabelGroup& texts, pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader);
 /// Returns the text of the first label, else of the first description.
-Text first_of(const Words& words);
-void read_unit(Unit& unit, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
-bool read_value(Value& value, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
+Text first_of(const LabelGroup& texts);
+void read_unit(Unit& unit, pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader);
+bool read_value(Value& value, pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader);
 /// Reads allowedValues. Returns the id of a template; not given for others.
-Text read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
+Text read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader);
 
 // types.cpp
-bool read_type(TypeUse& type, pugi::xml_node child, std::vector<Kept>& others, const Reader& reader);
+bool read_type(TypeUse& type, pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader);
 TypeDefinition read_definition(pugi::xml_node element, const Reader& reader);
 bool is_definition(pugi::xml_node element);
 
@@ -51,6 +51,6 @@ void read_file_info(pugi::xml_node body, const Reader& reader);
 void read_identity(pugi::xml_node element, const Reader& reader);
 
 // network.cpp
-bool read_network_part(pugi::xml_node child, std::vector<Kept>& others, const Reader& reader);
+bool read_network_part(pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader);
 
 }  // namespace lexican::codict::xdd

@@ -73,7 +73,7 @@ static_assert(!local_elements.back().empty());
 
 bool is_local(std::string_view name) { return std::binary_search(local_elements.begin(), local_elements.end(), name); }
 
-// Returns a valid XML name. Kept names of other formats may be invalid: each invalid character becomes an underscore.
+// Returns a valid XML name. Names of other formats may be invalid: each invalid character becomes an underscore.
 std::string written_name(std::string_view name) {
   std::string result(name);
   std::replace_if(
@@ -87,42 +87,45 @@ std::string written_name(std::string_view name) {
   return (is_begun || result.empty() ? "_" : "") + result;
 }
 
-bool is_attribute(const Kept& kept) { return kept.name.substr(0, 1) == "@"; }
+bool is_attribute(const OpaquePart& opaque_part) { return opaque_part.name.substr(0, 1) == "@"; }
 
 }  // namespace
 
-Rest::Rest(const std::vector<Kept>& others) {
-  for (const Kept& kept : others) {
-    all_.push_back(&kept);
+OpaqueParts::OpaqueParts(const std::vector<OpaquePart>& others) {
+  for (const OpaquePart& opaque_part : others) {
+    all_.push_back(&opaque_part);
   }
 }
 
-const Kept* Rest::take(std::string_view name) {
-  const auto place = std::find_if(all_.begin(), all_.end(), [name](const Kept* kept) { return kept->name == name; });
+const OpaquePart* OpaqueParts::remove_first(std::string_view name) {
+  const auto place = std::find_if(all_.begin(), all_.end(),
+                                  [name](const OpaquePart* opaque_part) { return opaque_part->name == name; });
   if (place == all_.end()) {
     return nullptr;
   }
-  const Kept* const found = *place;
+  const OpaquePart* const found = *place;
   all_.erase(place);
   return found;
 }
 
-const Kept* Rest::take_left(std::string_view name, std::string_view attribute) {
-  const auto is_left = [name, attribute](const Kept* kept) {
-    return kept->name == name && !kept->text.is_given &&
-           std::none_of(kept->children.begin(), kept->children.end(),
-                        [attribute](const Kept& child) { return child.name == "@" + std::string(attribute); });
+const OpaquePart* OpaqueParts::remove_remainder(std::string_view name, std::string_view attribute) {
+  const auto is_left = [name, attribute](const OpaquePart* opaque_part) {
+    return opaque_part->name == name && !opaque_part->text.is_given &&
+           std::none_of(opaque_part->children.begin(), opaque_part->children.end(),
+                        [attribute](const OpaquePart& child) { return child.name == "@" + std::string(attribute); });
   };
   const auto place = std::find_if(all_.begin(), all_.end(), is_left);
   if (place == all_.end()) {
     return nullptr;
   }
-  const Kept* const found = *place;
+  const OpaquePart* const found = *place;
   all_.erase(place);
   return found;
 }
 
-Rest rest_of(const Kept* left) { return left != nullptr ? Rest(left->children) : Rest(); }
+OpaqueParts parts_inside(const OpaquePart* remainder) {
+  return remainder != nullptr ? OpaqueParts(remainder->children) : OpaqueParts();
+}
 
 Printer::Printer(Edition edition) : edition_(edition), text_("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n") {}
 
@@ -186,37 +189,37 @@ void Printer::element(std::string_view name, std::string_view content) {
   close();
 }
 
-void Printer::kept(const Kept& kept) {
-  if (kept.name.empty() || is_attribute(kept)) {
+void Printer::print_opaque(const OpaquePart& part) {
+  if (part.name.empty() || is_attribute(part)) {
     return;
   }
-  const Rest rest(kept.children);
-  open(kept.name);
-  attributes_of(rest);
-  const bool has_elements =
-      std::any_of(kept.children.begin(), kept.children.end(), [](const Kept& child) { return !is_attribute(child); });
+  const OpaqueParts opaque(part.children);
+  open(part.name);
+  attributes_of(opaque);
+  const bool has_elements = std::any_of(part.children.begin(), part.children.end(),
+                                        [](const OpaquePart& child) { return !is_attribute(child); });
   if (has_elements) {
-    elements_of(rest);
-    if (!kept.text.is_empty()) {
-      text_ += escaped(kept.text.text) + "\n";
+    elements_of(opaque);
+    if (!part.text.is_empty()) {
+      text_ += escaped(part.text.text) + "\n";
     }
   } else {
-    text(kept.text.text);
+    text(part.text.text);
   }
   close();
 }
 
-void Printer::attributes_of(const Rest& rest) {
-  for (const Kept* kept : rest.all()) {
-    if (is_attribute(*kept)) {
-      attribute(std::string_view(kept->name).substr(1), std::string_view(kept->text.text));
+void Printer::attributes_of(const OpaqueParts& opaque) {
+  for (const OpaquePart* part : opaque.all()) {
+    if (is_attribute(*part)) {
+      attribute(std::string_view(part->name).substr(1), std::string_view(part->text.text));
     }
   }
 }
 
-void Printer::elements_of(const Rest& rest) {
-  for (const Kept* one : rest.all()) {
-    kept(*one);
+void Printer::elements_of(const OpaqueParts& opaque) {
+  for (const OpaquePart* one : opaque.all()) {
+    print_opaque(*one);
   }
 }
 

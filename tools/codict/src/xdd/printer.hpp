@@ -12,25 +12,25 @@
 
 namespace lexican::codict::xdd {
 
-/// Kept parts of an element that are not yet written.
-class Rest {
+/// Opaque parts of an element that are not yet written.
+class OpaqueParts {
  public:
-  Rest() = default;
-  explicit Rest(const std::vector<Kept>& others);
+  OpaqueParts() = default;
+  explicit OpaqueParts(const std::vector<OpaquePart>& others);
 
-  /// Removes and returns the first kept part with a name; null if there is none.
-  const Kept* take(std::string_view name);
-  /// Like take(), but skips parts that were kept with their text or with this attribute: only the rest of an element is
-  /// returned whose text or attribute the reader has stored in the model.
-  const Kept* take_left(std::string_view name, std::string_view attribute);
-  const std::vector<const Kept*>& all() const { return all_; }
+  /// Removes and returns the first part with a name; null if there is none.
+  const OpaquePart* remove_first(std::string_view name);
+  /// Like remove_first(), but skips parts that were stored with their text or with this attribute: only the remainder
+  /// of an element is returned whose text or attribute the reader has stored in the model.
+  const OpaquePart* remove_remainder(std::string_view name, std::string_view attribute);
+  const std::vector<const OpaquePart*>& all() const { return all_; }
 
  private:
-  std::vector<const Kept*> all_;
+  std::vector<const OpaquePart*> all_;
 };
 
-/// Returns the kept parts inside of an element; none if the element has no kept rest.
-Rest rest_of(const Kept* left);
+/// Returns the opaque parts inside an element; none if the element has no remainder.
+OpaqueParts parts_inside(const OpaquePart* remainder);
 
 /// Buffer for an XML text. Elements are indented and closed in the order of open() and close().
 class Printer {
@@ -45,11 +45,11 @@ class Printer {
   void close();
 
   void element(std::string_view name, std::string_view content);
-  void kept(const Kept& kept);
-  void attributes_of(const Rest& rest);
-  void elements_of(const Rest& rest);
+  void print_opaque(const OpaquePart& part);
+  void attributes_of(const OpaqueParts& opaque);
+  void elements_of(const OpaqueParts& opaque);
 
-  std::string take() { return std::move(text_); }
+  std::string take_text() { return std::move(text_); }
 
  private:
   void indent();

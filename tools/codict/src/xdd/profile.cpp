@@ -45,18 +45,18 @@ constexpr std::array<Slot<Identity>, 8> identity_slots = {{
     {"instanceName", [](Identity& i) -> Text& { return i.instance_name; }},
 }};
 
-struct WordsSlot {
+struct LabelGroupSlot {
   std::string_view name;
-  Words& (*words)(Identity&);
+  LabelGroup& (*texts)(Identity&);
   Text& (*text)(Identity&);
 };
 
-constexpr std::array<WordsSlot, 3> identity_words = {{
-    {"vendorText", [](Identity& i) -> Words& { return i.vendor_words; },
+constexpr std::array<LabelGroupSlot, 3> identity_texts = {{
+    {"vendorText", [](Identity& i) -> LabelGroup& { return i.vendor_texts; },
      [](Identity& i) -> Text& { return i.vendor_text; }},
-    {"deviceFamily", [](Identity& i) -> Words& { return i.family_words; },
+    {"deviceFamily", [](Identity& i) -> LabelGroup& { return i.family_texts; },
      [](Identity& i) -> Text& { return i.device_family; }},
-    {"productText", [](Identity& i) -> Words& { return i.product_words; },
+    {"productText", [](Identity& i) -> LabelGroup& { return i.product_texts; },
      [](Identity& i) -> Text& { return i.product_text; }},
 }};
 
@@ -75,10 +75,10 @@ bool read_eds_keys(const Text& description, const Reader& reader) {
     return false;
   }
   Device found;
-  std::string_view rest = description.text;
-  while (!rest.empty()) {
-    const std::string_view part = rest.substr(0, rest.find('|'));
-    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+  std::string_view remaining = description.text;
+  while (!remaining.empty()) {
+    const std::string_view part = remaining.substr(0, remaining.find('|'));
+    remaining.remove_prefix(std::min(part.size() + 1, remaining.size()));
     const std::size_t sign = part.find('=');
     const Text text{std::string(part.substr(std::min(sign, part.size() - 1) + 1)), description.span, true};
     if (sign == std::string_view::npos ||
@@ -95,28 +95,29 @@ bool read_eds_keys(const Text& description, const Reader& reader) {
   return true;
 }
 
-bool read_identity_words(pugi::xml_node child, std::vector<Kept>& others, const Reader& reader) {
+bool read_identity_texts(pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader) {
   const std::string_view name = local_name(child);
-  for (const WordsSlot& slot : identity_words) {
+  for (const LabelGroupSlot& slot : identity_texts) {
     Identity& identity = reader.device.identity;
     if (!is_named(name, slot.name, reader.document.tag(child), reader) || slot.text(identity).is_given) {
       continue;
     }
-    Words& words = slot.words(identity);
-    std::vector<Kept> rest;
-    read_children(child, rest, reader, [&](pugi::xml_node word) { return read_word(words, word, rest, reader); });
-    keep_rest(child, std::move(rest), others, reader);
-    if (words.descriptions.size() == 1 && read_eds_keys(words.descriptions.front().text, reader)) {
-      words.descriptions.clear();
+    LabelGroup& texts = slot.texts(identity);
+    std::vector<OpaquePart> opaque;
+    read_children(child, opaque, reader,
+                  [&](pugi::xml_node word) { return read_label_element(texts, word, opaque, reader); });
+    store_remainder(child, std::move(opaque), others, reader);
+    if (texts.descriptions.size() == 1 && read_eds_keys(texts.descriptions.front().text, reader)) {
+      texts.descriptions.clear();
     }
-    slot.text(identity) = first_of(words);
+    slot.text(identity) = first_of(texts);
     slot.text(identity).is_given = true;
     return true;
   }
   return false;
 }
 
-bool read_identity_text(pugi::xml_node child, std::vector<Kept>& others, const Reader& reader) {
+bool read_identity_text(pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader) {
   const std::string_view name = local_name(child);
   const Span place = reader.document.tag(child);
   Identity& identity = reader.device.identity;
@@ -132,16 +133,17 @@ bool read_identity_text(pugi::xml_node child, std::vector<Kept>& others, const R
   return read_into(identity, name, text_of(child, {}, others, reader), place, identity_slots, reader);
 }
 
-void read_version(pugi::xml_node child, std::vector<Kept>& others, const Reader& reader) {
+void read_version(pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader) {
   Version& version = reader.device.identity.versions.emplace_back();
   version.type = attribute_text(child, "versionType", reader);
   version.text = text_of(child, {}, others, reader);
-  // Removes the attribute, which has been read, from the kept parts.
+  // Removes the attribute, which has been read, from the opaque parts.
   if (version.type.is_given && !others.empty() && others.back().name == "version") {
-    auto& rest = others.back().children;
-    rest.erase(std::remove_if(rest.begin(), rest.end(), [](const Kept& k) { return k.name == "@versionType"; }),
-               rest.end());
-    if (rest.empty()) {
+    auto& opaque = others.back().children;
+    opaque.erase(
+        std::remove_if(opaque.begin(), opaque.end(), [](const OpaquePart& k) { return k.name == "@versionType"; }),
+        opaque.end());
+    if (opaque.empty()) {
       others.pop_back();
     }
   }
@@ -153,9 +155,10 @@ void read_header(pugi::xml_node element, ProfileHeader& header, const Reader& re
   read_element(header, element, header_slots, header.others, reader, [](pugi::xml_node) { return false; });
 }
 
-// Reads the attributes of a body. Both bodies of a file usually have the same; different ones of the second are kept.
+// Reads the attributes of a body. Both bodies of a file usually have the same; different ones of the second are stored
+// as opaque.
 void read_file_info(pugi::xml_node body, const Reader& reader) {
-  std::vector<Kept> rest;
+  std::vector<OpaquePart> opaque;
   FileInfo& file = reader.device.file;
   FileInfo said;
   for (const pugi::xml_attribute attribute : body.attributes()) {
@@ -164,7 +167,7 @@ void read_file_info(pugi::xml_node body, const Reader& reader) {
                            (name == "formatVersion" && std::string_view(attribute.value()) == "1.0");
     if (!is_syntax(attribute) && !is_format &&
         !read_into(said, name, reader.document.text(attribute), reader.document.span(attribute), file_slots, reader)) {
-      keep(attribute, rest, reader);
+      store_opaque(attribute, opaque, reader);
     }
   }
   for (const Slot<FileInfo>& slot : file_slots) {
@@ -173,26 +176,26 @@ void read_file_info(pugi::xml_node body, const Reader& reader) {
     if (text.is_given && !first.is_given) {
       first = text;
     } else if (text.is_given && first.text != text.text) {
-      rest.push_back({"@" + std::string(slot.name), text, {}, text.span});
+      opaque.push_back({"@" + std::string(slot.name), text, {}, text.span});
     }
   }
   const ParsedInteger version = parse_integer(file.version.text);  // any text is allowed
   if (version.is_meant() && !version.value.is_negative && version.value.magnitude <= 0xFFFFFFFF) {
     file.version.value = static_cast<std::uint32_t>(version.value.magnitude);
   }
-  keep_rest(body, std::move(rest), reader.device.others, reader);
+  store_remainder(body, std::move(opaque), reader.device.others, reader);
 }
 
 void read_identity(pugi::xml_node element, const Reader& reader) {
-  std::vector<Kept> rest;
-  read_children(element, rest, reader, [&](pugi::xml_node child) {
+  std::vector<OpaquePart> opaque;
+  read_children(element, opaque, reader, [&](pugi::xml_node child) {
     if (is_named(local_name(child), "version", reader.document.tag(child), reader)) {
-      read_version(child, rest, reader);
+      read_version(child, opaque, reader);
       return true;
     }
-    return read_identity_words(child, rest, reader) || read_identity_text(child, rest, reader);
+    return read_identity_texts(child, opaque, reader) || read_identity_text(child, opaque, reader);
   });
-  keep_rest(element, std::move(rest), reader.device.others, reader);
+  store_remainder(element, std::move(opaque), reader.device.others, reader);
   Identity& identity = reader.device.identity;
   interpret_number(identity.vendor_number, std::numeric_limits<std::uint32_t>::max(), reader.findings);
   interpret_number(identity.product_number, std::numeric_limits<std::uint32_t>::max(), reader.findings);

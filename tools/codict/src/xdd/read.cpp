@@ -68,15 +68,15 @@ void set_dialect(std::string_view name, std::string_view about, pugi::xml_node r
 }
 
 // Reads a part of a body; dialects have such parts at other places, too. ApplicationProcess has already been read.
-bool read_part(pugi::xml_node child, std::vector<Kept>& others, const Reader& reader);
+bool read_part(pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader);
 
-void read_parts(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
-  std::vector<Kept> rest;
-  read_children(element, rest, reader, [&](pugi::xml_node child) { return read_part(child, rest, reader); });
-  keep_rest(element, std::move(rest), others, reader);
+void read_parts(pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader) {
+  std::vector<OpaquePart> opaque;
+  read_children(element, opaque, reader, [&](pugi::xml_node child) { return read_part(child, opaque, reader); });
+  store_remainder(element, std::move(opaque), others, reader);
 }
 
-bool read_part(pugi::xml_node child, std::vector<Kept>& others, const Reader& reader) {
+bool read_part(pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader) {
   const std::string_view name = local_name(child);
   if (name == "DeviceIdentity") {
     read_identity(child, reader);
@@ -97,7 +97,7 @@ void read_body(pugi::xml_node body, const Reader& reader) {
   read_file_info(body, reader);
   for (const pugi::xml_node child : body.children()) {
     if (child.type() == pugi::node_element && !read_part(child, reader.device.others, reader)) {
-      keep(child, reader.device.others, reader);
+      store_opaque(child, reader.device.others, reader);
     }
   }
 }
@@ -137,7 +137,7 @@ void read_profile(pugi::xml_node profile, const Reader& reader) {
     } else if (name == "ProfileBody") {
       read_body(child, reader);
     } else if (child.type() == pugi::node_element) {
-      keep(child, device.others, reader);
+      store_opaque(child, device.others, reader);
     }
   }
 }
@@ -151,7 +151,7 @@ std::vector<pugi::xml_node> profiles_of(pugi::xml_node container, const Reader& 
     if (is_profile(child)) {
       profiles.push_back(child);
     } else if (child.type() == pugi::node_element && !is_profile(container)) {
-      keep(child, reader.device.others, reader);
+      store_opaque(child, reader.device.others, reader);
     }
   }
   return profiles;

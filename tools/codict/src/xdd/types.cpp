@@ -39,13 +39,13 @@ std::uint16_t code_named(std::string_view name) {
 }
 
 // Reads a type of maxon: <dataType><type>UNSIGNED8</type><size unit="bit">4</size></dataType>
-void read_named_type(TypeUse& type, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
-  std::vector<Kept> rest;
-  read_children(element, rest, reader, [&](pugi::xml_node child) {
+void read_named_type(TypeUse& type, pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader) {
+  std::vector<OpaquePart> opaque;
+  read_children(element, opaque, reader, [&](pugi::xml_node child) {
     if (local_name(child) != "type" || type.iec.is_given) {
       return false;
     }
-    type.iec = text_of(child, {}, rest, reader);
+    type.iec = text_of(child, {}, opaque, reader);
     type.code = code_named(type.iec.text);
     if (type.code == 0) {
       reader.findings.add(rules::type_unknown, type.iec.span, in_quotes(type.iec.text) + " is not a data type",
@@ -53,7 +53,7 @@ void read_named_type(TypeUse& type, pugi::xml_node element, std::vector<Kept>& o
     }
     return true;
   });
-  keep_rest(element, std::move(rest), others, reader);
+  store_remainder(element, std::move(opaque), others, reader);
 }
 
 void interpret_bound(Field<std::int64_t>& bound) {
@@ -68,9 +68,9 @@ void read_bounds(TypeDefinition& definition, pugi::xml_node element, const Reade
       {{"lowerLimit", [](TypeDefinition::Bounds& b) -> Text& { return b.lower; }},
        {"upperLimit", [](TypeDefinition::Bounds& b) -> Text& { return b.upper; }}}};
   TypeDefinition::Bounds& bounds = definition.bounds.emplace_back();
-  std::vector<Kept> rest;
-  read_element(bounds, element, slots, rest, reader, [](pugi::xml_node) { return false; });
-  keep_rest(element, std::move(rest), definition.others, reader);
+  std::vector<OpaquePart> opaque;
+  read_element(bounds, element, slots, opaque, reader, [](pugi::xml_node) { return false; });
+  store_remainder(element, std::move(opaque), definition.others, reader);
   interpret_bound(bounds.lower);
   interpret_bound(bounds.upper);
 }
@@ -82,7 +82,7 @@ void read_member(TypeDefinition& definition, pugi::xml_node element, const Reade
                                                   {"size", [](Member& m) -> Text& { return m.size; }}}};
   Member& member = definition.members.emplace_back();
   read_element(member, element, slots, member.others, reader, [&](pugi::xml_node child) {
-    return read_word(member.words, child, member.others, reader) ||
+    return read_label_element(member.texts, child, member.others, reader) ||
            read_type(member.type, child, member.others, reader);
   });
 }
@@ -95,10 +95,10 @@ bool read_enum_value(TypeDefinition& definition, pugi::xml_node child, const Rea
   }
   constexpr std::array<Slot<AllowedValue>, 1> slots = {{{"value", [](AllowedValue& v) -> Text& { return v.value; }}}};
   AllowedValue& value = definition.values.emplace_back();
-  std::vector<Kept> rest;
-  read_element(value, child, slots, rest, reader,
-               [&](pugi::xml_node word) { return read_word(value.words, word, rest, reader); });
-  keep_rest(child, std::move(rest), definition.others, reader);
+  std::vector<OpaquePart> opaque;
+  read_element(value, child, slots, opaque, reader,
+               [&](pugi::xml_node word) { return read_label_element(value.texts, word, opaque, reader); });
+  store_remainder(child, std::move(opaque), definition.others, reader);
   return true;
 }
 
@@ -147,7 +147,7 @@ bool is_definition(pugi::xml_node element) {
   return name == "array" || name == "struct" || name == "enum" || name == "derived";
 }
 
-bool read_type(TypeUse& type, pugi::xml_node child, std::vector<Kept>& others, const Reader& reader) {
+bool read_type(TypeUse& type, pugi::xml_node child, std::vector<OpaquePart>& others, const Reader& reader) {
   const std::string_view name = local_name(child);
   if (type.iec.is_given || type.reference.is_given) {
     return false;
@@ -170,9 +170,9 @@ bool read_type(TypeUse& type, pugi::xml_node child, std::vector<Kept>& others, c
     return false;
   }
   type.iec = {std::string(name), reader.document.tag(child), true};
-  std::vector<Kept> rest;
-  read_children(child, rest, reader, [](pugi::xml_node) { return false; });
-  keep_rest(child, std::move(rest), others, reader);
+  std::vector<OpaquePart> opaque;
+  read_children(child, opaque, reader, [](pugi::xml_node) { return false; });
+  store_remainder(child, std::move(opaque), others, reader);
   return true;
 }
 
@@ -193,7 +193,7 @@ TypeDefinition read_definition(pugi::xml_node element, const Reader& reader) {
       read_member(definition, child, reader);
       return true;
     }
-    return read_word(definition.words, child, definition.others, reader) ||
+    return read_label_element(definition.texts, child, definition.others, reader) ||
            read_enum_value(definition, child, reader) || read_type(definition.type, child, definition.others, reader);
   });
   for (AllowedValue& value : definition.values) {

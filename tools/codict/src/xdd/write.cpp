@@ -33,7 +33,7 @@ void drop_types_parts(std::vector<TypeDefinition>& types) {
   }
 }
 
-// Returns a copy of a device without the kept parts of other formats, which no schema allows. Keys of an EDS are
+// Returns a copy of a device without the opaque parts of other formats, which no schema allows. Keys of an EDS are
 // preserved: they become properties.
 Device without_private_parts(const Device& device) {
   Device plain = device;
@@ -69,7 +69,7 @@ void print_attribute(Printer& out, std::string_view name, const std::string& tex
 class DeviceWriter {
  public:
   DeviceWriter(const Device& device, Edition edition)
-      : device_(device), out_(edition), rest_(device.others), entries_(out_, device) {}
+      : device_(device), out_(edition), opaque_(device.others), entries_(out_, device) {}
 
   std::string written() {
     out_.open("ISO15745ProfileContainer");
@@ -80,9 +80,9 @@ class DeviceWriter {
     out_.attribute("xmlns:xsi", schema_instance);
     device_profile();
     network_profile();
-    out_.elements_of(rest_);
+    out_.elements_of(opaque_);
     out_.close();
-    return out_.take();
+    return out_.take_text();
   }
 
  private:
@@ -91,7 +91,7 @@ class DeviceWriter {
     const auto text = [&](const Text& given, std::string_view other) {
       return is_given ? std::string_view(given.text) : other;
     };
-    Rest rest(header.others);
+    OpaqueParts opaque(header.others);
     out_.open("ProfileHeader");
     out_.element("ProfileIdentification", text(header.identification, identification));
     out_.element("ProfileRevision", text(header.revision, "1"));
@@ -101,9 +101,9 @@ class DeviceWriter {
     if (header.date.is_given) {
       out_.element("ProfileDate", header.date.text);
     }
-    const Kept* const reference = rest.take("ISO15745Reference");
+    const OpaquePart* const reference = opaque.remove_first("ISO15745Reference");
     if (reference != nullptr) {
-      out_.kept(*reference);
+      out_.print_opaque(*reference);
     } else {
       out_.open("ISO15745Reference");
       out_.element("ISO15745Part", "1");
@@ -111,12 +111,12 @@ class DeviceWriter {
       out_.element("ProfileTechnology", "CANopen");
       out_.close();
     }
-    out_.elements_of(rest);
+    out_.elements_of(opaque);
     out_.close();
   }
 
   // Opens a body and writes its attributes. `own`: attributes by which the second body differs from the first.
-  void body(std::string_view type, const Rest& own) {
+  void body(std::string_view type, const OpaqueParts& own) {
     const FileInfo& file = device_.file;
     out_.open("ProfileBody");
     out_.attribute("xsi:type", (out_.is_qualified() ? "" : "co:") + std::string(type));
@@ -124,8 +124,9 @@ class DeviceWriter {
     out_.attribute("formatName", std::string_view("CANopen"));
     out_.attribute("formatVersion", std::string_view("1.0"));
     const auto attribute = [&](std::string_view name, const std::string& text, bool is_wanted) {
-      const bool is_said = std::any_of(own.all().begin(), own.all().end(),
-                                       [name](const Kept* kept) { return kept->name == "@" + std::string(name); });
+      const bool is_said = std::any_of(own.all().begin(), own.all().end(), [name](const OpaquePart* part) {
+        return part->name == "@" + std::string(name);
+      });
       print_attribute(out_, name, text, is_wanted && !is_said);
     };
     attribute("fileName", file.file_name.text, true);
@@ -143,14 +144,14 @@ class DeviceWriter {
   }
 
   void device_profile() {
-    const Kept* const of_body = rest_.take("ProfileBody");  // kept attributes of the second body
+    const OpaquePart* const of_body = opaque_.remove_first("ProfileBody");  // opaque attributes of the second body
     second_body_ = of_body;
     out_.open("ISO15745Profile");
     header(device_.device_profile, "CANopen device profile", "Device");
-    body("ProfileBody_Device_CANopen", Rest());
+    body("ProfileBody_Device_CANopen", OpaqueParts());
     identity();
-    kept("DeviceManager");
-    if (!kept("DeviceFunction")) {
+    print_stored("DeviceManager");
+    if (!print_stored("DeviceFunction")) {
       device_function();
     }
     process();
@@ -158,10 +159,10 @@ class DeviceWriter {
     out_.close();
   }
 
-  bool kept(std::string_view name) {
-    const Kept* const found = rest_.take(name);
+  bool print_stored(std::string_view name) {
+    const OpaquePart* const found = opaque_.remove_first(name);
     if (found != nullptr) {
-      out_.kept(*found);
+      out_.print_opaque(*found);
     }
     return found != nullptr;
   }
@@ -186,38 +187,38 @@ class DeviceWriter {
     }
   }
 
-  void identity_text(Rest& rest, std::string_view name, const Text& text, bool is_wanted = false) {
+  void identity_text(OpaqueParts& opaque, std::string_view name, const Text& text, bool is_wanted = false) {
     if (!text.is_given && !is_wanted) {
       return;
     }
     out_.open(name);
-    const Kept* const left = rest.take_left(name, {});
-    const Rest of_left = left != nullptr ? Rest(left->children) : Rest();
-    out_.attributes_of(of_left);
+    const OpaquePart* const remainder = opaque.remove_remainder(name, {});
+    const OpaqueParts remainder_parts = remainder != nullptr ? OpaqueParts(remainder->children) : OpaqueParts();
+    out_.attributes_of(remainder_parts);
     if (text.is_empty()) {
-      out_.elements_of(of_left);
+      out_.elements_of(remainder_parts);
     }
     out_.text(text.text);
     out_.close();
   }
 
-  void identity_words(Rest& rest, std::string_view name, const Words& words, const Text& text,
+  void identity_texts(OpaqueParts& opaque, std::string_view name, const LabelGroup& texts, const Text& text,
                       const std::string& eds_keys = {}) {
     if (!text.is_given && eds_keys.empty()) {
       return;
     }
     out_.open(name);
-    const Kept* const left = rest.take_left(name, {});
-    const Rest of_left = left != nullptr ? Rest(left->children) : Rest();
-    out_.attributes_of(of_left);
-    print_words(out_, words);
+    const OpaquePart* const remainder = opaque.remove_remainder(name, {});
+    const OpaqueParts remainder_parts = remainder != nullptr ? OpaqueParts(remainder->children) : OpaqueParts();
+    out_.attributes_of(remainder_parts);
+    print_labels(out_, texts);
     if (!eds_keys.empty()) {
       out_.open("description");
       out_.attribute("lang", std::string_view("en"));
       out_.text(eds_keys);
       out_.close();
     }
-    out_.elements_of(of_left);
+    out_.elements_of(remainder_parts);
     out_.close();
   }
 
@@ -244,86 +245,87 @@ class DeviceWriter {
 
   void identity() {
     const Identity& identity = device_.identity;
-    const Kept* const left = rest_.take("DeviceIdentity");
-    Rest rest = left != nullptr ? Rest(left->children) : Rest();
+    const OpaquePart* const remainder = opaque_.remove_first("DeviceIdentity");
+    OpaqueParts opaque = remainder != nullptr ? OpaqueParts(remainder->children) : OpaqueParts();
     out_.open("DeviceIdentity");
-    identity_text(rest, "vendorName", identity.vendor_name, true);
-    identity_text(rest, "vendorID", identity.vendor_number);
-    identity_words(rest, "vendorText", identity.vendor_words, identity.vendor_text);
-    identity_words(rest, "deviceFamily", identity.family_words, identity.device_family);
-    identity_text(rest, "productFamily", identity.product_family);
-    identity_text(rest, "productName", identity.product_name, true);
-    identity_text(rest, "productID", identity.product_number);
-    identity_words(rest, "productText", identity.product_words, identity.product_text, eds_keys());
+    identity_text(opaque, "vendorName", identity.vendor_name, true);
+    identity_text(opaque, "vendorID", identity.vendor_number);
+    identity_texts(opaque, "vendorText", identity.vendor_texts, identity.vendor_text);
+    identity_texts(opaque, "deviceFamily", identity.family_texts, identity.device_family);
+    identity_text(opaque, "productFamily", identity.product_family);
+    identity_text(opaque, "productName", identity.product_name, true);
+    identity_text(opaque, "productID", identity.product_number);
+    identity_texts(opaque, "productText", identity.product_texts, identity.product_text, eds_keys());
     for (const Text& code : identity.order_codes) {
-      identity_text(rest, "orderNumber", code);
+      identity_text(opaque, "orderNumber", code);
     }
     for (const Version& version : identity.versions) {
       out_.open("version");
-      const Kept* const of_version = rest.take_left("version", "versionType");
+      const OpaquePart* const of_version = opaque.remove_remainder("version", "versionType");
       out_.attribute("versionType", version.type);
-      out_.attributes_of(of_version != nullptr ? Rest(of_version->children) : Rest());
+      out_.attributes_of(of_version != nullptr ? OpaqueParts(of_version->children) : OpaqueParts());
       out_.text(version.text.text);
       out_.close();
     }
-    identity_text(rest, "buildDate", identity.build_date);
-    identity_text(rest, "specificationRevision", identity.specification_revision);
-    identity_text(rest, "instanceName", identity.instance_name);
-    out_.elements_of(rest);
+    identity_text(opaque, "buildDate", identity.build_date);
+    identity_text(opaque, "specificationRevision", identity.specification_revision);
+    identity_text(opaque, "instanceName", identity.instance_name);
+    out_.elements_of(opaque);
     out_.close();
   }
 
   void process() {
-    const Kept* const left = rest_.take("ApplicationProcess");
-    Rest rest = left != nullptr ? Rest(left->children) : Rest();
+    const OpaquePart* const remainder = opaque_.remove_first("ApplicationProcess");
+    OpaqueParts opaque = remainder != nullptr ? OpaqueParts(remainder->children) : OpaqueParts();
     if (!entries_.has_parameters() && device_.types.empty() && device_.groups.empty() && device_.templates.empty() &&
-        device_.allowed_templates.empty() && left == nullptr) {
+        device_.allowed_templates.empty() && remainder == nullptr) {
       return;
     }
     out_.open("ApplicationProcess");
-    entries_.types(rest.take("dataTypeList"));
+    entries_.types(opaque.remove_first("dataTypeList"));
     for (const std::string_view name : {"functionTypeList", "functionInstanceList"}) {
-      if (const Kept* const list = rest.take(name)) {
-        out_.kept(*list);
+      if (const OpaquePart* const list = opaque.remove_first(name)) {
+        out_.print_opaque(*list);
       }
     }
-    entries_.templates(rest.take("templateList"));
-    entries_.parameters(rest.take("parameterList"));
-    entries_.groups(rest.take("parameterGroupList"));
-    out_.elements_of(rest);
+    entries_.templates(opaque.remove_first("templateList"));
+    entries_.parameters(opaque.remove_first("parameterList"));
+    entries_.groups(opaque.remove_first("parameterGroupList"));
+    out_.elements_of(opaque);
     out_.close();
   }
 
   void network_profile() {
     out_.open("ISO15745Profile");
     header(device_.communication_profile, "CANopen communication network profile", "CommunicationNetwork");
-    body("ProfileBody_CommunicationNetwork_CANopen", second_body_ != nullptr ? Rest(second_body_->children) : Rest());
+    body("ProfileBody_CommunicationNetwork_CANopen",
+         second_body_ != nullptr ? OpaqueParts(second_body_->children) : OpaqueParts());
     layers();
-    print_transport(out_, device_, rest_.take("TransportLayers"), rest_.take("baudRate"));
-    print_management(out_, device_, rest_.take("NetworkManagement"));
+    print_transport(out_, device_, opaque_.remove_first("TransportLayers"), opaque_.remove_first("baudRate"));
+    print_management(out_, device_, opaque_.remove_first("NetworkManagement"));
     out_.close();
     out_.close();
   }
 
   void layers() {
-    const Kept* const left = rest_.take("ApplicationLayers");
-    Rest rest = left != nullptr ? Rest(left->children) : Rest();
+    const OpaquePart* const remainder = opaque_.remove_first("ApplicationLayers");
+    OpaqueParts opaque = remainder != nullptr ? OpaqueParts(remainder->children) : OpaqueParts();
     out_.open("ApplicationLayers");
-    entries_.objects(rest_.take("CANopenObjectList"));
-    if (const Kept* const identity = rest.take("identity")) {
-      out_.kept(*identity);
+    entries_.objects(opaque_.remove_first("CANopenObjectList"));
+    if (const OpaquePart* const identity = opaque.remove_first("identity")) {
+      out_.print_opaque(*identity);
     }
-    print_dummies(out_, device_, rest.take("dummyUsage"));
-    print_channels(out_, device_, rest.take("dynamicChannels"));
-    out_.elements_of(rest);
+    print_dummies(out_, device_, opaque.remove_first("dummyUsage"));
+    print_channels(out_, device_, opaque.remove_first("dynamicChannels"));
+    out_.elements_of(opaque);
     out_.close();
   }
 
   const Device& device_;
   Printer out_;
-  Rest rest_;
+  OpaqueParts opaque_;
   EntryWriter entries_;
-  const Kept* second_body_ = nullptr;
+  const OpaquePart* second_body_ = nullptr;
 };
 
 }  // namespace

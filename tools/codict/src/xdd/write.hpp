@@ -16,8 +16,9 @@ enum class Edition : unsigned char {
 
 /// Returns the text in the order of the schema. An entry with a parameter has both data types: the type element of the
 /// parameter (CiA 311) and, as attribute of the object, the more precise type of CiA 301. Parts that the model does not
-/// interpret (Kept) are written where a description of CiA 311 had them; those of other formats are omitted: comments
-/// and modules of an EDS, elements of private dialects. The output depends on nothing but the device and the edition.
+/// interpret (OpaquePart) are written where a description of CiA 311 had them; those of other formats are omitted:
+/// comments and modules of an EDS, elements of private dialects. The output depends on nothing but the device and the
+/// edition.
 std::string write(const Device& device, Edition edition);
 
 }  // namespace lexican::codict::xdd

@@ -10,11 +10,11 @@ namespace lexican::codict::xdd {
 
 namespace {
 
-// Returns whether a kept part belongs to the object, and not to its parameter, which has no such attribute.
-bool is_of_object(const Kept& kept) {
+// Returns whether an opaque part belongs to the object, and not to its parameter, which has no such attribute.
+bool is_of_object(const OpaquePart& opaque_part) {
   constexpr std::array<std::string_view, 7> names = {"@lowLimit",    "@highLimit",  "@accessType",     "@defaultValue",
                                                      "@actualValue", "@denotation", "CANopenSubObject"};
-  return std::find(names.begin(), names.end(), kept.name) != names.end();
+  return std::find(names.begin(), names.end(), opaque_part.name) != names.end();
 }
 
 std::string_view word_of(Access access) {
@@ -43,8 +43,8 @@ bool has_node_properties(const NodeProperties& node) {
 
 // Returns whether an entry has parts that the attributes of an object cannot express.
 bool needs_parameter(const Entry& entry) {
-  const auto is_of_parameter = [](const Kept& kept) { return !is_of_object(kept); };
-  return entry.parameter_id->is_given || !entry.words->labels.empty() || !entry.words->descriptions.empty() ||
+  const auto is_of_parameter = [](const OpaquePart& opaque_part) { return !is_of_object(opaque_part); };
+  return entry.parameter_id->is_given || !entry.texts->labels.empty() || !entry.texts->descriptions.empty() ||
          entry.unit->is_given || !entry.allowed->values.empty() || !entry.allowed->ranges.empty() ||
          has_node_properties(entry.node) || !entry.properties->empty() || entry.substitute_value->is_given ||
          std::any_of(entry.others.begin(), entry.others.end(), is_of_parameter);
@@ -78,7 +78,7 @@ std::string hex(std::uint64_t value, std::size_t digits) {
   return text;
 }
 
-void print_words(Printer& out, const Words& words) {
+void print_labels(Printer& out, const LabelGroup& texts) {
   const auto print = [&out](const Label& label, std::string_view name) {
     const bool is_reference = !label.dictionary->empty();
     out.open(is_reference ? std::string(name) + "Ref" : std::string(name));
@@ -94,10 +94,10 @@ void print_words(Printer& out, const Words& words) {
     }
     out.close();
   };
-  for (const Label& label : words.labels) {
+  for (const Label& label : texts.labels) {
     print(label, "label");
   }
-  for (const Label& description : words.descriptions) {
+  for (const Label& description : texts.descriptions) {
     print(description, "description");
   }
 }
@@ -151,78 +151,78 @@ void EntryWriter::type(const Entry& entry, bool is_variable) {
   }
 }
 
-void EntryWriter::value(std::string_view name, const Value& value, Rest& rest) {
+void EntryWriter::value(std::string_view name, const Value& value, OpaqueParts& opaque) {
   const std::string text = value_text(value);
   if (!is_said(value) || (is_eds_ && text.empty())) {
     return;
   }
-  const Rest left = rest_of(rest.take_left(name, "value"));
+  const OpaqueParts remainder = parts_inside(opaque.remove_remainder(name, "value"));
   out_.open(name);
   out_.attribute("value", std::string_view(text));
-  out_.attributes_of(left);
-  out_.elements_of(left);
+  out_.attributes_of(remainder);
+  out_.elements_of(remainder);
   out_.close();
 }
 
-void EntryWriter::range(const Range& range, Rest& rest) {
-  Rest left = rest_of(rest.take_left("range", {}));
+void EntryWriter::range(const Range& range, OpaqueParts& opaque) {
+  OpaqueParts remainder = parts_inside(opaque.remove_remainder("range", {}));
   out_.open("range");
-  value("minValue", range.minimum, left);
-  value("maxValue", range.maximum, left);
-  value("step", range.step, left);
-  out_.elements_of(left);
+  value("minValue", range.minimum, remainder);
+  value("maxValue", range.maximum, remainder);
+  value("step", range.step, remainder);
+  out_.elements_of(remainder);
   out_.close();
 }
 
-void EntryWriter::ranges(const Allowed& allowed, Rest& rest) {
+void EntryWriter::ranges(const Allowed& allowed, OpaqueParts& opaque) {
   for (const Range& one : allowed.ranges) {
-    range(one, rest);
+    range(one, opaque);
   }
 }
 
-void EntryWriter::allowed_values(const Allowed& allowed, Rest& rest) {
+void EntryWriter::allowed_values(const Allowed& allowed, OpaqueParts& opaque) {
   out_.attribute("templateIDRef", allowed.template_id);
   for (const AllowedValue& one : allowed.values) {
     out_.open("value");
     out_.attribute("value", one.value);
     out_.attribute("offset", one.offset);
     out_.attribute("multiplier", one.multiplier);
-    print_words(out_, one.words);
+    print_labels(out_, one.texts);
     out_.close();
   }
-  ranges(allowed, rest);
-  out_.elements_of(rest);
+  ranges(allowed, opaque);
+  out_.elements_of(opaque);
 }
 
-void EntryWriter::allowed(const Entry& entry, Rest& rest) {
+void EntryWriter::allowed(const Entry& entry, OpaqueParts& opaque) {
   const Allowed& given = entry.allowed;
   const bool is_given = !given.values.empty() || !given.ranges.empty() || given.template_id.is_given;
   const bool has_both = is_in(entry.low_limit) && is_in(entry.high_limit);
-  const Kept* const left = rest.take("allowedValues");
-  Rest of_left = rest_of(left);
-  if (is_given || left != nullptr) {
+  const OpaquePart* const remainder = opaque.remove_first("allowedValues");
+  OpaqueParts remainder_parts = parts_inside(remainder);
+  if (is_given || remainder != nullptr) {
     out_.open("allowedValues");
-    out_.attributes_of(of_left);
-    allowed_values(given, of_left);
+    out_.attributes_of(remainder_parts);
+    allowed_values(given, remainder_parts);
     out_.close();
   } else if (is_eds_ && has_both) {
     out_.open("allowedValues");
-    range({entry.low_limit, entry.high_limit, {}}, of_left);
+    range({entry.low_limit, entry.high_limit, {}}, remainder_parts);
     out_.close();
   }
 }
 
-void EntryWriter::unit(const Unit& unit, Rest& rest) {
+void EntryWriter::unit(const Unit& unit, OpaqueParts& opaque) {
   if (!unit.is_given) {
     return;
   }
-  const Rest left = rest_of(rest.take_left("unit", {}));
+  const OpaqueParts remainder = parts_inside(opaque.remove_remainder("unit", {}));
   out_.open("unit");
   out_.attribute("multiplier", unit.multiplier);
   out_.attribute("unitURI", unit.uri);
-  out_.attributes_of(left);
-  print_words(out_, unit.words);
-  out_.elements_of(left);
+  out_.attributes_of(remainder);
+  print_labels(out_, unit.texts);
+  out_.elements_of(remainder);
   out_.close();
 }
 
@@ -251,7 +251,7 @@ void EntryWriter::properties(const Entry& entry) {
   for (const Property& other : *entry.properties) {
     property(other.name, other.value.text);
   }
-  for (const Kept& key : entry.others) {
+  for (const OpaquePart& key : entry.others) {
     if (is_eds_) {
       property(key.name, key.text.text);
     }
@@ -260,7 +260,7 @@ void EntryWriter::properties(const Entry& entry) {
 
 // Writes the name of an entry of an EDS, which has no labels, as a label.
 void EntryWriter::label_of_name(const Entry& entry) {
-  if (entry.words->labels.empty() && is_eds_) {
+  if (entry.texts->labels.empty() && is_eds_) {
     out_.open("label");
     out_.attribute("lang", std::string_view("en"));
     out_.text(entry.name.text);
@@ -268,26 +268,26 @@ void EntryWriter::label_of_name(const Entry& entry) {
   }
 }
 
-void EntryWriter::denotation(const Entry& entry, Rest& rest) {
-  const bool has_words = !entry.denotations->labels.empty() || !entry.denotations->descriptions.empty();
-  if (!has_words && !(is_eds_ && entry.denotation->is_given)) {
+void EntryWriter::denotation(const Entry& entry, OpaqueParts& opaque) {
+  const bool has_labels = !entry.denotations->labels.empty() || !entry.denotations->descriptions.empty();
+  if (!has_labels && !(is_eds_ && entry.denotation->is_given)) {
     return;
   }
-  const Rest left = rest_of(rest.take_left("denotation", {}));
+  const OpaqueParts remainder = parts_inside(opaque.remove_remainder("denotation", {}));
   out_.open("denotation");
-  print_words(out_, entry.denotations);
-  if (!has_words) {
-    print_words(out_, {{{"en", entry.denotation, {}, {}}}, {}});
+  print_labels(out_, entry.denotations);
+  if (!has_labels) {
+    print_labels(out_, {{{"en", entry.denotation, {}, {}}}, {}});
   }
-  out_.elements_of(left);
+  out_.elements_of(remainder);
   out_.close();
 }
 
 void EntryWriter::parameter(const Entry& entry, const std::string& id, bool is_variable, std::string_view element) {
-  std::vector<Kept> own;
+  std::vector<OpaquePart> own;
   std::copy_if(entry.others.begin(), entry.others.end(), std::back_inserter(own),
-               [this](const Kept& kept) { return !is_of_object(kept) && !is_eds_; });
-  Rest rest(own);
+               [this](const OpaquePart& opaque_part) { return !is_of_object(opaque_part) && !is_eds_; });
+  OpaqueParts opaque(own);
   out_.open(element);
   out_.attribute("uniqueID", std::string_view(id));
   const bool is_default = entry.access.value == Access::ro && !entry.access.is_given;
@@ -304,23 +304,23 @@ void EntryWriter::parameter(const Entry& entry, const std::string& id, bool is_v
   out_.attribute("offset", entry.offset);
   out_.attribute("multiplier", entry.multiplier);
   out_.attribute("templateIDRef", entry.template_id);
-  out_.attributes_of(rest);
+  out_.attributes_of(opaque);
   label_of_name(entry);
-  print_words(out_, entry.words);
+  print_labels(out_, entry.texts);
   type(entry, is_variable);
   for (const Text& support : *entry.conditional_support) {
     out_.open("conditionalSupport");
     out_.attribute("paramIDRef", std::string_view(support.text));
     out_.close();
   }
-  denotation(entry, rest);
-  value("actualValue", entry.actual_value, rest);
-  value("defaultValue", entry.default_value, rest);
-  value("substituteValue", entry.substitute_value, rest);
-  allowed(entry, rest);
-  unit(entry.unit, rest);
+  denotation(entry, opaque);
+  value("actualValue", entry.actual_value, opaque);
+  value("defaultValue", entry.default_value, opaque);
+  value("substituteValue", entry.substitute_value, opaque);
+  allowed(entry, opaque);
+  unit(entry.unit, opaque);
   properties(entry);
-  out_.elements_of(rest);
+  out_.elements_of(opaque);
   out_.close();
 }
 
@@ -330,8 +330,8 @@ void EntryWriter::parameter_once(const Entry& entry, const std::string& id, bool
   }
 }
 
-void EntryWriter::parameters(const Kept* left) {
-  if (!has_parameters() && left == nullptr) {
+void EntryWriter::parameters(const OpaquePart* remainder) {
+  if (!has_parameters() && remainder == nullptr) {
     return;
   }
   out_.open("parameterList");
@@ -344,27 +344,27 @@ void EntryWriter::parameters(const Kept* left) {
   for (const Entry& entry : device_.parameters) {
     parameter(entry, entry.parameter_id->text, false, "parameter");
   }
-  out_.elements_of(rest_of(left));
+  out_.elements_of(parts_inside(remainder));
   out_.close();
 }
 
-void EntryWriter::templates(const Kept* left) {
-  if (device_.templates.empty() && device_.allowed_templates.empty() && left == nullptr) {
+void EntryWriter::templates(const OpaquePart* remainder) {
+  if (device_.templates.empty() && device_.allowed_templates.empty() && remainder == nullptr) {
     return;
   }
-  Rest rest = rest_of(left);
+  OpaqueParts opaque = parts_inside(remainder);
   out_.open("templateList");
   for (const Entry& entry : device_.templates) {
     parameter(entry, entry.parameter_id->text, false, "parameterTemplate");
   }
   for (const AllowedTemplate& one : device_.allowed_templates) {
-    Rest of_one = rest_of(rest.take("allowedValuesTemplate"));
+    OpaqueParts of_one = parts_inside(opaque.remove_first("allowedValuesTemplate"));
     out_.open("allowedValuesTemplate");
     out_.attribute("uniqueID", std::string_view(one.id.text));
     allowed_values(one.allowed, of_one);
     out_.close();
   }
-  out_.elements_of(rest);
+  out_.elements_of(opaque);
   out_.close();
 }
 
@@ -372,20 +372,20 @@ void EntryWriter::enumeration(const TypeDefinition& definition) {
   for (const AllowedValue& one : definition.values) {
     out_.open("enumValue");
     out_.attribute("value", one.value);
-    print_words(out_, one.words);
+    print_labels(out_, one.texts);
     out_.close();
   }
 }
 
 void EntryWriter::definition(const TypeDefinition& definition) {
   constexpr std::array<std::string_view, 4> names = {"array", "struct", "enum", "derived"};  // indexed by Kind
-  const Rest rest(definition.others);
+  const OpaqueParts opaque(definition.others);
   out_.open(names[static_cast<std::size_t>(definition.kind)]);
   out_.attribute("name", definition.name);
   out_.attribute("uniqueID", definition.id);
   out_.attribute("size", definition.size);
-  out_.attributes_of(rest);
-  print_words(out_, definition.words);
+  out_.attributes_of(opaque);
+  print_labels(out_, definition.texts);
   for (const TypeDefinition::Bounds& bounds : definition.bounds) {
     out_.open("subrange");
     out_.attribute("lowerLimit", bounds.lower);
@@ -394,41 +394,41 @@ void EntryWriter::definition(const TypeDefinition& definition) {
   }
   type_use(definition.type, 0);
   for (const TypeDefinition::Member& member : definition.members) {
-    const Rest of_member(member.others);
+    const OpaqueParts of_member(member.others);
     out_.open("varDeclaration");
     out_.attribute("name", member.name);
     out_.attribute("uniqueID", member.id);
     out_.attribute("size", member.size);
     out_.attributes_of(of_member);
-    print_words(out_, member.words);
+    print_labels(out_, member.texts);
     type_use(member.type, 0);
     out_.elements_of(of_member);
     out_.close();
   }
   enumeration(definition);
-  out_.elements_of(rest);
+  out_.elements_of(opaque);
   out_.close();
 }
 
-void EntryWriter::types(const Kept* left) {
-  if (device_.types.empty() && left == nullptr) {
+void EntryWriter::types(const OpaquePart* remainder) {
+  if (device_.types.empty() && remainder == nullptr) {
     return;
   }
   out_.open("dataTypeList");
   for (const TypeDefinition& one : device_.types) {
     definition(one);
   }
-  out_.elements_of(rest_of(left));
+  out_.elements_of(parts_inside(remainder));
   out_.close();
 }
 
 void EntryWriter::group(const Group& group) {
-  const Rest rest(group.others);
+  const OpaqueParts opaque(group.others);
   out_.open("parameterGroup");
   out_.attribute("uniqueID", group.id);
   out_.attribute("kindOfAccess", group.kind_of_access);
-  out_.attributes_of(rest);
-  print_words(out_, group.words);
+  out_.attributes_of(opaque);
+  print_labels(out_, group.texts);
   for (const Group& inner : group.groups) {
     this->group(inner);
   }
@@ -437,19 +437,19 @@ void EntryWriter::group(const Group& group) {
     out_.attribute("uniqueIDRef", std::string_view(parameter.text));
     out_.close();
   }
-  out_.elements_of(rest);
+  out_.elements_of(opaque);
   out_.close();
 }
 
-void EntryWriter::groups(const Kept* left) {
-  if (device_.groups.empty() && left == nullptr) {
+void EntryWriter::groups(const OpaquePart* remainder) {
+  if (device_.groups.empty() && remainder == nullptr) {
     return;
   }
   out_.open("parameterGroupList");
   for (const Group& one : device_.groups) {
     group(one);
   }
-  out_.elements_of(rest_of(left));
+  out_.elements_of(parts_inside(remainder));
   out_.close();
 }
 
@@ -475,8 +475,8 @@ void EntryWriter::entry_attributes(const Entry& entry, const std::string& id, bo
     }
     out_.attribute("actualValue", entry.actual_value);
   }
-  const bool has_words = !entry.denotations->labels.empty() || !entry.denotations->descriptions.empty();
-  if (!has_words && !(is_eds_ && is_parameter)) {
+  const bool has_labels = !entry.denotations->labels.empty() || !entry.denotations->descriptions.empty();
+  if (!has_labels && !(is_eds_ && is_parameter)) {
     out_.attribute("denotation", entry.denotation);
   }
   if (entry.pdo_mapping.is_given || entry.pdo_mapping.value != PdoMapping::no) {
@@ -488,9 +488,9 @@ void EntryWriter::entry_attributes(const Entry& entry, const std::string& id, bo
   if (is_parameter) {
     out_.attribute("uniqueIDRef", std::string_view(id));
   }
-  for (const Kept& kept : entry.others) {
-    if (is_of_object(kept) && kept.name.front() == '@') {
-      out_.attribute(std::string_view(kept.name).substr(1), std::string_view(kept.text.text));
+  for (const OpaquePart& opaque_part : entry.others) {
+    if (is_of_object(opaque_part) && opaque_part.name.front() == '@') {
+      out_.attribute(std::string_view(opaque_part.name).substr(1), std::string_view(opaque_part.text.text));
     }
   }
 }
@@ -509,30 +509,30 @@ void EntryWriter::object(const Object& object) {
     entry_attributes(sub, id_of(sub, made_id(object, sub)), true);
     out_.close();
   }
-  for (const Kept& kept : object.others) {
-    if (is_of_object(kept)) {
-      out_.kept(kept);
+  for (const OpaquePart& opaque_part : object.others) {
+    if (is_of_object(opaque_part)) {
+      out_.print_opaque(opaque_part);
     }
   }
   out_.close();
 }
 
-void EntryWriter::objects(const Kept* left) {
+void EntryWriter::objects(const OpaquePart* remainder) {
   const auto count = [this](std::string_view name, ListKind kind) {
     const auto number = std::count_if(device_.objects.begin(), device_.objects.end(),
                                       [kind](const Object& one) { return list_of(one.index) == kind; });
     out_.attribute(name, std::string_view(std::to_string(number)));
   };
-  const Rest rest = rest_of(left);
+  const OpaqueParts opaque = parts_inside(remainder);
   out_.open("CANopenObjectList");
   count("mandatoryObjects", ListKind::mandatory);
   count("optionalObjects", ListKind::optional);
   count("manufacturerObjects", ListKind::manufacturer);
-  out_.attributes_of(rest);
+  out_.attributes_of(opaque);
   for (const Object& one : device_.objects) {
     object(one);
   }
-  out_.elements_of(rest);
+  out_.elements_of(opaque);
   out_.close();
 }
 

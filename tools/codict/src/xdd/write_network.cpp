@@ -37,13 +37,13 @@ void print_hex(Printer& out, std::string_view name, const Field<T>& field, std::
   out.attribute(name, std::string_view(text_or(field, hex(field.value, digits))));
 }
 
-void print_rates(Printer& out, const Features& features, const Kept* left) {
-  Rest rest = rest_of(left);
+void print_rates(Printer& out, const Features& features, const OpaquePart* remainder) {
+  OpaqueParts opaque = parts_inside(remainder);
   out.open("baudRate");
   if (const Field<std::uint32_t>& rate = features.default_bit_rate; rate.is_given) {
     out.attribute("defaultValue", std::string_view(rate.is_empty() ? "" : text_or(rate, rate_text(rate.value))));
   }
-  out.attributes_of(rest);
+  out.attributes_of(opaque);
   for (const BitRate& rate : features.bit_rates) {
     // A malformed bit rate has only a text.
     if (rate.supported.value || rate.kbit == 0) {
@@ -52,11 +52,11 @@ void print_rates(Printer& out, const Features& features, const Kept* left) {
       out.close();
     }
   }
-  out.elements_of(rest);
+  out.elements_of(opaque);
   out.close();
 }
 
-void print_general(Printer& out, const Features& f, const Kept* left) {
+void print_general(Printer& out, const Features& f, const OpaquePart* remainder) {
   out.open("CANopenGeneralFeatures");
   print_flag(out, "groupMessaging", f.group_messaging);
   print_number(out, "dynamicChannels", f.dynamic_channels);
@@ -70,24 +70,24 @@ void print_general(Printer& out, const Features& f, const Kept* left) {
   print_flag(out, "ngSlave", f.node_guarding_slave);
   print_flag(out, "ngMaster", f.node_guarding_master);
   print_number(out, "NrOfNG_MonitoredNodes", f.guarded_nodes);
-  out.attributes_of(rest_of(left));
-  out.elements_of(rest_of(left));
+  out.attributes_of(parts_inside(remainder));
+  out.elements_of(parts_inside(remainder));
   out.close();
 }
 
-void print_master(Printer& out, const Features& f, const Kept* left) {
+void print_master(Printer& out, const Features& f, const OpaquePart* remainder) {
   out.open("CANopenMasterFeatures");
   print_flag(out, "bootUpMaster", f.boot_up_master);
   print_flag(out, "flyingMaster", f.flying_master);
   print_flag(out, "SDOManager", f.sdo_manager);
   print_flag(out, "configurationManager", f.configuration_manager);
   print_flag(out, "layerSettingServiceMaster", f.lss_master);
-  out.attributes_of(rest_of(left));
-  out.elements_of(rest_of(left));
+  out.attributes_of(parts_inside(remainder));
+  out.elements_of(parts_inside(remainder));
   out.close();
 }
 
-void print_commissioning(Printer& out, const Commissioning& c, const Kept* left) {
+void print_commissioning(Printer& out, const Commissioning& c, const OpaquePart* remainder) {
   out.open("deviceCommissioning");
   if (!c.node_id.is_empty()) {
     print_number(out, "nodeID", c.node_id);
@@ -98,8 +98,8 @@ void print_commissioning(Printer& out, const Commissioning& c, const Kept* left)
   out.attribute("networkNumber", std::string_view(text_or(c.network_number, std::to_string(c.network_number.value))));
   out.attribute("networkName", std::string_view(c.network_name.text));
   out.attribute("CANopenManager", std::string_view(text_or(c.is_manager, word(c.is_manager.value))));
-  out.attributes_of(rest_of(left));
-  out.elements_of(rest_of(left));
+  out.attributes_of(parts_inside(remainder));
+  out.elements_of(parts_inside(remainder));
   out.close();
 }
 
@@ -113,34 +113,35 @@ std::string_view direction(Access access) {
 
 }  // namespace
 
-void print_transport(Printer& out, const Device& device, const Kept* left, const Kept* rates_left) {
-  Rest rest = rest_of(left);
-  const Kept* const physical = rest.take("PhysicalLayer");
-  Rest of_physical = rest_of(physical);
-  const Kept* const of_rates = of_physical.take("baudRate");
+void print_transport(Printer& out, const Device& device, const OpaquePart* remainder,
+                     const OpaquePart* rates_remainder) {
+  OpaqueParts opaque = parts_inside(remainder);
+  const OpaquePart* const physical = opaque.remove_first("PhysicalLayer");
+  OpaqueParts of_physical = parts_inside(physical);
+  const OpaquePart* const of_rates = of_physical.remove_first("baudRate");
   out.open("TransportLayers");
   out.open("PhysicalLayer");
-  print_rates(out, device.features, of_rates != nullptr ? of_rates : rates_left);
+  print_rates(out, device.features, of_rates != nullptr ? of_rates : rates_remainder);
   out.elements_of(of_physical);
   out.close();
-  out.elements_of(rest);
+  out.elements_of(opaque);
   out.close();
 }
 
-void print_management(Printer& out, const Device& device, const Kept* left) {
-  Rest rest = rest_of(left);
+void print_management(Printer& out, const Device& device, const OpaquePart* remainder) {
+  OpaqueParts opaque = parts_inside(remainder);
   out.open("NetworkManagement");
-  print_general(out, device.features, rest.take("CANopenGeneralFeatures"));
-  print_master(out, device.features, rest.take("CANopenMasterFeatures"));
+  print_general(out, device.features, opaque.remove_first("CANopenGeneralFeatures"));
+  print_master(out, device.features, opaque.remove_first("CANopenMasterFeatures"));
   if (device.commissioning.is_given) {
-    print_commissioning(out, device.commissioning, rest.take("deviceCommissioning"));
+    print_commissioning(out, device.commissioning, opaque.remove_first("deviceCommissioning"));
   }
-  out.elements_of(rest);
+  out.elements_of(opaque);
   out.close();
 }
 
-void print_dummies(Printer& out, const Device& device, const Kept* left) {
-  if (device.dummies.empty() && left == nullptr) {
+void print_dummies(Printer& out, const Device& device, const OpaquePart* remainder) {
+  if (device.dummies.empty() && remainder == nullptr) {
     return;
   }
   out.open("dummyUsage");
@@ -150,18 +151,18 @@ void print_dummies(Printer& out, const Device& device, const Kept* left) {
                   "Dummy" + hex(dummy.type, 4) + "=" + text_or(dummy.supported, dummy.supported.value ? "1" : "0"));
     out.close();
   }
-  out.elements_of(rest_of(left));
+  out.elements_of(parts_inside(remainder));
   out.close();
 }
 
-void print_channels(Printer& out, const Device& device, const Kept* left) {
-  if (device.dynamic_channels.empty() && left == nullptr) {
+void print_channels(Printer& out, const Device& device, const OpaquePart* remainder) {
+  if (device.dynamic_channels.empty() && remainder == nullptr) {
     return;
   }
   out.open("dynamicChannels");
   for (const DynamicChannel& channel : device.dynamic_channels) {
     out.open("dynamicChannel");
-    const Rest rest(channel.others);
+    const OpaqueParts opaque(channel.others);
     print_hex(out, "dataType", channel.data_type, 2);
     out.attribute("accessType", direction(channel.access.value));
     print_hex(out, "startIndex", channel.first_index, 4);
@@ -171,11 +172,11 @@ void print_channels(Printer& out, const Device& device, const Kept* left) {
       print_hex(out, "addressOffset", channel.offset, 4);
     }
     print_number(out, "bitAlignment", channel.bit_alignment);
-    out.attributes_of(rest);
-    out.elements_of(rest);
+    out.attributes_of(opaque);
+    out.elements_of(opaque);
     out.close();
   }
-  out.elements_of(rest_of(left));
+  out.elements_of(parts_inside(remainder));
   out.close();
 }
 

@@ -12,15 +12,16 @@
 
 namespace lexican::codict::xdd {
 
-void print_words(Printer& out, const Words& words);
+void print_labels(Printer& out, const LabelGroup& texts);
 
-// Parameters named left: kept parts of the element that is written, which the reader left; null: none.
+// Parameters named remainder: opaque parts of the element that is written; null: none.
 
 // write_network.cpp
-void print_transport(Printer& out, const Device& device, const Kept* left, const Kept* rates_left);
-void print_management(Printer& out, const Device& device, const Kept* left);
-void print_dummies(Printer& out, const Device& device, const Kept* left);
-void print_channels(Printer& out, const Device& device, const Kept* left);
+void print_transport(Printer& out, const Device& device, const OpaquePart* remainder,
+                     const OpaquePart* rates_remainder);
+void print_management(Printer& out, const Device& device, const OpaquePart* remainder);
+void print_dummies(Printer& out, const Device& device, const OpaquePart* remainder);
+void print_channels(Printer& out, const Device& device, const OpaquePart* remainder);
 
 /// Returns at least `digits` hexadecimal digits in capital letters.
 std::string hex(std::uint64_t value, std::size_t digits);
@@ -31,11 +32,11 @@ class EntryWriter {
   EntryWriter(Printer& out, const Device& device);
 
   bool has_parameters() const;
-  void types(const Kept* left);
-  void templates(const Kept* left);
-  void parameters(const Kept* left);
-  void groups(const Kept* left);
-  void objects(const Kept* left);
+  void types(const OpaquePart* remainder);
+  void templates(const OpaquePart* remainder);
+  void parameters(const OpaquePart* remainder);
+  void groups(const OpaquePart* remainder);
+  void objects(const OpaquePart* remainder);
 
  private:
   bool has_parameter(const Entry& entry, bool is_variable) const;
@@ -44,13 +45,13 @@ class EntryWriter {
   void parameter_once(const Entry& entry, const std::string& id, bool is_variable);
   void type(const Entry& entry, bool is_variable);
   void type_use(const TypeUse& use, std::uint16_t code);
-  void value(std::string_view name, const Value& value, Rest& rest);
-  void allowed(const Entry& entry, Rest& rest);
-  void allowed_values(const Allowed& allowed, Rest& rest);
-  void ranges(const Allowed& allowed, Rest& rest);
-  void range(const Range& range, Rest& rest);
-  void unit(const Unit& unit, Rest& rest);
-  void denotation(const Entry& entry, Rest& rest);
+  void value(std::string_view name, const Value& value, OpaqueParts& opaque);
+  void allowed(const Entry& entry, OpaqueParts& opaque);
+  void allowed_values(const Allowed& allowed, OpaqueParts& opaque);
+  void ranges(const Allowed& allowed, OpaqueParts& opaque);
+  void range(const Range& range, OpaqueParts& opaque);
+  void unit(const Unit& unit, OpaqueParts& opaque);
+  void denotation(const Entry& entry, OpaqueParts& opaque);
   void properties(const Entry& entry);
   void property(std::string_view name, std::string_view text);
   void object(const Object& object);
