@@ -863,6 +863,42 @@ TEST_CASE("controllers: bus-off lasts until Reset, if the application recovers")
   }
 }
 
+TEST_CASE("controllers: a second bus-off lasts until Reset, too") {
+  for (const Kind kind : all_kinds) {
+    CAPTURE(name_of(kind));
+    Bench bench;
+    Controller& can = bench.add(kind);
+    drive_to_bus_off(bench, can);
+    can.reset();
+    CHECK(bench.run_until([&] { return !can.node().is_bus_off(); }));
+    static_cast<void>(can.read_all());
+    bench.run(20);
+    drive_to_bus_off(bench, can);
+    bench.run(3 * recovery_bits);
+    CHECK(can.node().is_bus_off());
+  }
+}
+
+TEST_CASE("controllers: a change of filters in bus-off keeps the frame that was accepted, and the bus-off") {
+  for (const Kind kind : all_kinds) {
+    CAPTURE(name_of(kind));
+    Bench bench;
+    ControllerOptions options;
+    options.recovery = CO_CAN_RECOVERY_AUTOMATIC;
+    Controller& can = bench.add(kind, options);
+    drive_to_bus_off(bench, can);
+    can.filter({0x123});
+    CHECK(can.node().is_bus_off());
+    CHECK(bench.run_until([&] { return !can.node().is_bus_off(); }));
+    bench.run(200);
+    CHECK(bench.sent_by(can) == Texts{"7FF#0102"});
+    static_cast<void>(can.read_all());
+    bench.receive(standard_frame(0x124));
+    bench.receive(standard_frame(0x123));
+    CHECK(can.read_all() == Texts{"123#"});
+  }
+}
+
 TEST_CASE("controllers: Enable recovers from bus-off, too") {
   for (const Kind kind : all_kinds) {
     CAPTURE(name_of(kind));
