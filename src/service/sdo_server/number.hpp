@@ -28,10 +28,10 @@ inline bool initiates_number(uint8_t command) {
   return command == wire::initiate_upload_request || (command & ~length) == wire::expedited_download_request(4);
 }
 
-// Returns the object of a request that may initiate the transfer of a number while no transfer is open, otherwise null.
+// Returns the object of a request that may initiate the transfer of a number, otherwise null. No transfer is open.
 inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
   const bool is_enabled = USE_FAST_PATHS != 0 && wire::host_is_little_endian;
-  if (!is_enabled || state_of(channel) != State::idle || !initiates_number(request.Data[0])) {
+  if (!is_enabled || !initiates_number(request.Data[0])) {
     return nullptr;
   }
   return dict::find(channel.Node->Dict, wire::multiplexer(request));

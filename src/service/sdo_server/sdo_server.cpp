@@ -8,6 +8,7 @@
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
 #include "service/sdo_server/number.hpp"
+#include "service/sdo_server/segment.hpp"
 #include "service/sdo_server/transfer.hpp"
 #include "wire/cob_id.hpp"
 
@@ -101,8 +102,13 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, 
   if (frame.DLC != wire::sdo_dlc) {
     return false;
   }
-  CO_OBJ* const found = find_number(channel, frame);
-  if (found != nullptr && serve_number(channel, frame, *found)) {
+  CO_OBJ* found = nullptr;
+  if (state_of(channel) == State::idle) {
+    found = find_number(channel, frame);
+    if (found != nullptr && serve_number(channel, frame, *found)) {
+      return true;
+    }
+  } else if (USE_FAST_PATHS != 0 && serve_segment(channel, frame)) {
     return true;
   }
   const bool in_block = is_segment(channel, frame);
