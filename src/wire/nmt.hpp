@@ -35,10 +35,10 @@ inline constexpr uint8_t error_control_dlc = 1;
 // Toggle bit, bit 7 of a response to node guarding. [301:7.2.8.2.2.1]
 inline constexpr uint8_t toggle = 0x80;
 
-// Returns a heartbeat, or a response to node guarding with its toggle bit.
+// Returns a heartbeat, or a response to node guarding with its toggle bit. mode: below CO_MODE_NUM
 inline CO_IF_FRM error_control(uint8_t node_id, CO_MODE mode, uint8_t toggle_bit = 0) {
   CO_IF_FRM frame = empty_frame(CobId::error_control + node_id, error_control_dlc);
-  frame.Data[0] = static_cast<uint8_t>(heartbeat_state(mode) | toggle_bit);
+  frame.Data[0] = static_cast<uint8_t>(heartbeat_states[mode] | toggle_bit);
   return frame;
 }
 
