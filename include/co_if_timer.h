@@ -22,7 +22,7 @@ extern "C" {
 typedef struct CO_IF_TIMER_DRV_T {
   void (*Init)(uint32_t freq);  ///< \a freq: ticks per second; called once
   /// Sets the expiry \a ticks after now: 1…UINT32_MAX; a narrower counter counts them in several parts. The stack
-  /// programs UINT32_MAX while an elapsed cyclic timer has not run yet: Delay() then shows how late the loop is.
+  /// programs UINT32_MAX while the loop has missed an expiry of a cyclic timer: Delay() then shows how late it is.
   void (*Reload)(uint32_t ticks);
   uint32_t (*Delay)(void);  ///< returns the ticks left; 0: elapsed
   void (*Stop)(void);       ///< stops the timer: no expiry is needed

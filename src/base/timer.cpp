@@ -6,6 +6,7 @@
 #include "base/count.hpp"
 #include "base/error.hpp"
 #include "base/events.hpp"
+#include "co_assert.h"
 #include "hal/port.hpp"
 
 namespace co::tmr {
@@ -14,28 +15,23 @@ namespace {
 // Scope in which the timer interrupt is locked out.
 class Lock {
  public:
-  explicit Lock(const CO_TMR& timers) : timers_(timers) { port::lock(*timers.Node); }
-  [[gnu::always_inline]] ~Lock() { port::unlock(*timers_.Node); }
+  explicit Lock(const CO_TMR& timers) : node_(*timers.Node) { port::lock(node_); }
+  [[gnu::always_inline]] ~Lock() { port::unlock(node_); }
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;
 
  private:
-  const CO_TMR& timers_;
+  CO_NODE& node_;
 };
 
 // Returns the timer that contains the link.
 CO_TMR_MEM& owner_of(CO_TMR_MEM** link) { return *reinterpret_cast<CO_TMR_MEM*>(link); }
 static_assert(offsetof(CO_TMR_MEM, Next) == 0);
 
-// Returns the link to the first armed timer. Atomic: COTmrProcess() reads it without the lock.
-CO_TMR_MEM** first_armed(const CO_TMR& t) { return __atomic_load_n(&t.Armed, __ATOMIC_RELAXED); }
-bool has_due(const CO_TMR& t) { return first_armed(t) != &t.First; }
-
 // Returns whether frames or segments are queued that COTmrProcess() can send. Called in the timer interrupt, without
 // the lock.
 bool has_to_send(const CO_NODE& node) {
-  return __atomic_load_n(&node.TxQueue.Num, __ATOMIC_RELAXED) != 0 ||
-         __atomic_load_n(&node.Paused, __ATOMIC_RELAXED) != 0;
+  return (__atomic_load_n(&node.TxQueue.Num, __ATOMIC_RELAXED) | __atomic_load_n(&node.Paused, __ATOMIC_RELAXED)) != 0;
 }
 
 // Sets the clock to now; timers that have elapsed by then become due.
@@ -49,27 +45,29 @@ void advance(CO_TMR& t, uint32_t now) {
   __atomic_store_n(&t.Armed, armed, __ATOMIC_RELAXED);
 }
 
-bool has_cyclic(const CO_TMR_MEM* list) {
-  while (list != nullptr && list->Cycle == 0) {
-    list = list->Next;
+// Returns the ticks for which a classic driver counts while no timer is armed; 0 stops it. While an elapsed cyclic
+// timer has not been processed by the loop, the driver must count, so that the timer keeps its phase: until its next
+// expiry or, if that is missed, as long as possible, so that a blocked loop causes only one more interrupt.
+uint32_t wait_for_loop(const CO_TMR& t, uint32_t now) {
+  const CO_TMR_MEM* timer = t.First;
+  while (timer != nullptr && timer->Cycle == 0) {
+    timer = timer->Next;
   }
-  return list != nullptr;
+  if (timer == nullptr) {
+    return 0;
+  }
+  const uint32_t late = now - timer->At;
+  return late < timer->Cycle ? timer->Cycle - late : UINT32_MAX;
 }
-
-// Returns the ticks for which a classic driver counts while no timer is armed; 0 stops it. While elapsed cyclic timers
-// have not been processed by the loop, it counts as long as it can: so they keep their phase without further
-// interrupts.
-uint32_t wait_for_loop(const CO_TMR& t) { return has_cyclic(t.First) ? UINT32_MAX : 0; }
 
 // Programs the driver for the first armed timer.
 void program(CO_TMR& t, uint32_t now) {
   const CO_TMR_MEM* const first = *t.Armed;
-  const uint32_t next = first != nullptr ? first->At - now : 0;
   if (port::has_clock(*t.Node)) {
-    port::set_alarm(*t.Node, next);
+    port::set_alarm(*t.Node, first != nullptr ? first->At - now : 0);
     return;
   }
-  const uint32_t wait = next != 0 ? next : wait_for_loop(t);
+  const uint32_t wait = first != nullptr ? first->At - now : wait_for_loop(t, now);
   port::count_down(*t.Node, wait, t.Programmed == 0);
   t.Clock = now + wait;
   t.Programmed = wait;
@@ -87,36 +85,59 @@ void reprogram(CO_TMR& t, uint32_t now) {
 
 // Returns the present clock. With a driver that has a clock, timers that have elapsed become due.
 uint32_t synchronise(CO_TMR& t) {
+  if (t.Programmed != 0) {  // a classic driver is counting
+    const uint32_t left = port::ticks_left(*t.Node);
+    return t.Clock - (left < t.Programmed ? left : t.Programmed);
+  }
   if (port::has_clock(*t.Node)) {
     advance(t, port::now(*t.Node));
-    return t.Clock;
   }
-  if (t.Programmed == 0) {
-    return t.Clock;
-  }
-  const uint32_t left = port::ticks_left(*t.Node);
-  return t.Clock - (left < t.Programmed ? left : t.Programmed);
+  return t.Clock;
 }
 
-// Inserts a timer behind all timers that elapse before it or at the same tick: usually at the end, which is compared
-// first. The driver is programmed only if its next expiry changes.
-void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t now, uint32_t ticks) {
+// Returns whether the armed timers are in the order of their expiry after a clock value, and End refers to the last
+// one. For assertions.
+[[maybe_unused]] bool is_sorted(const CO_TMR& t, uint32_t from) {
+  uint32_t ticks = 0;
+  CO_TMR_MEM* const* link = t.Armed;
+  for (; *link != nullptr; link = &(*link)->Next) {
+    if ((*link)->At - from < ticks) {
+      return false;
+    }
+    ticks = (*link)->At - from;
+  }
+  return link == t.Armed || link == t.End;
+}
+
+// Links a timer that elapses some ticks after a clock value behind all timers that elapse before it or at the same
+// tick: usually at the end, which is compared first. Returns whether it is the first armed timer. from: the present
+// clock or, with a classic driver, the time of its next expiry, which no armed timer precedes.
+bool link_by_expiry(CO_TMR& t, CO_TMR_MEM& timer, uint32_t from, uint32_t ticks) {
+  CO_ASSERT(is_sorted(t, from));
   CO_TMR_MEM** link = t.Armed;
-  if (*link != nullptr && owner_of(t.End).At - now <= ticks) {
+  CO_TMR_MEM* next = *link;
+  if (next != nullptr && owner_of(t.End).At - from <= ticks) {
     link = t.End;
-  } else if (*link != nullptr) {
-    while ((*link)->At - now <= ticks) {
-      link = &(*link)->Next;
+    next = nullptr;
+  } else if (next != nullptr) {
+    while (next->At - from <= ticks) {
+      link = &next->Next;
+      next = *link;
     }
   }
-  timer.Running = 1;
-  timer.At = now + ticks;
-  timer.Next = *link;
-  *link = &timer;
-  if (timer.Next == nullptr) {
+  if (next == nullptr) {
     t.End = &timer.Next;
   }
-  if (link == t.Armed && timer.At != t.Clock) {
+  timer.Next = next;
+  timer.At = from + ticks;
+  *link = &timer;
+  return link == t.Armed;
+}
+
+// Arms a timer. The driver is programmed only if its next expiry changes.
+void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t now, uint32_t ticks) {
+  timer.Running = 1;
+  if (link_by_expiry(t, timer, now, ticks) && timer.At != t.Clock) {
     reprogram(t, now);
   }
 }
@@ -126,20 +147,18 @@ void remove(CO_TMR& t, CO_TMR_MEM& timer) {
     return;
   }
   timer.Running = 0;
-  const bool is_next = *t.Armed == &timer;
   CO_TMR_MEM** link = &t.First;
   while (*link != &timer) {
     link = &(*link)->Next;
   }
   *link = timer.Next;
-  if (t.Armed == &timer.Next) {
-    t.Armed = link;
-  }
   if (t.End == &timer.Next) {
     t.End = link;
   }
-  if (is_next) {
+  if (t.Armed == link) {
     reprogram(t, synchronise(t));
+  } else if (t.Armed == &timer.Next) {
+    t.Armed = link;
   }
 }
 
@@ -177,6 +196,25 @@ void rearm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t cycle) {
   insert(t, timer, now, cycle - modulo(now - timer.At, cycle));
 }
 
+// Returns whether a classic driver is programmed for a time before the next expiry of an elapsed timer, or for that
+// expiry and has not elapsed yet. until_alarm: ticks from the last expiry of the timer to that for which the driver is
+// programmed, at least those that were programmed; less if they exceed 32 bits.
+bool is_next_ahead(const CO_TMR& t, uint32_t until_alarm, uint32_t cycle) {
+  return USE_FAST_PATHS != 0 && t.Programmed - 1U < until_alarm &&
+         (until_alarm < cycle || (until_alarm == cycle && port::ticks_left(*t.Node) != 0));
+}
+
+// Calls rearm() for a cyclic timer. If no expiry was missed and a classic driver elapses not later than the timer, the
+// driver is neither read nor programmed.
+void start_next_cycle(CO_TMR& t, CO_TMR_MEM& timer) {
+  const uint32_t until_alarm = t.Clock - timer.At;
+  if (is_next_ahead(t, until_alarm, timer.Cycle)) {
+    link_by_expiry(t, timer, t.Clock, timer.Cycle - until_alarm);
+  } else {
+    rearm(t, timer, timer.Cycle);
+  }
+}
+
 void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
   timer.Func = func;
   timer.Para = para;
@@ -193,7 +231,7 @@ const CO_TMR_MEM& remove_elapsed(CO_TMR& t, CO_TMR_MEM*& link) {
     t.Armed = &link;
   }
   if (timer.Cycle != 0) {
-    rearm(t, timer, timer.Cycle);
+    start_next_cycle(t, timer);
     return timer;
   }
   timer.Running = 0;
@@ -207,17 +245,6 @@ const CO_TMR_MEM& remove_elapsed(CO_TMR& t, CO_TMR_MEM*& link) {
 const CO_TMR_MEM& remove_first(CO_TMR& t) {
   const Lock lock(t);
   return remove_elapsed(t, t.First);
-}
-
-// Runs the actions of all elapsed timers. Timers that elapse while actions run are left to the next call.
-[[gnu::noinline]] void run_due(CO_TMR& t) {
-  const uint32_t first = t.First->At;
-  const uint32_t span = owner_of(first_armed(t)).At - first;
-  do {
-    const CO_TMR_MEM& timer = remove_first(t);
-    timer.Func(timer.Para);
-    event::run_deferred(*t.Node);
-  } while (has_due(t) && t.First->At - first <= span);
 }
 
 #if USE_REAL_TIME
@@ -283,7 +310,7 @@ bool has_turns(const CO_TMR& t) {
 }
 
 // Runs each action with the node lock taken anew, so that other threads wait for one action at most.
-void run_in_turns(CO_TMR& t, void (*before)(CO_NODE_T& node)) {
+void run_in_turns(CO_TMR& t, void (*before)(CO_NODE& node)) {
   const Share share = share_of_mainline(t);
   Span span = {};
   bool more = false;
@@ -380,20 +407,26 @@ uint32_t next_deadline(CO_TMR& timers) {
   return next == nullptr ? UINT32_MAX : next->At - now;
 }
 
-void run(CO_TMR& timers, void (*before)(CO_NODE_T& node)) {
-#if USE_REAL_TIME
-  if (has_turns(timers)) {
-    run_in_turns(timers, before);
-    return;
-  }
-#endif
-  before(*timers.Node);
-  if (has_due(timers)) {
-    run_due(timers);
-  }
+void run_due(CO_TMR& timers) {
+  CO_ASSERT(has_due(timers));
+  const uint32_t first = timers.First->At;
+  const uint32_t span = owner_of(first_armed(timers)).At - first;
+  do {
+    const CO_TMR_MEM& timer = remove_first(timers);
+    timer.Func(timer.Para);
+    event::run_deferred(*timers.Node);
+  } while (has_due(timers) && timers.First->At - first <= span);
 }
 
 #if USE_REAL_TIME
+bool run_locked(CO_TMR& timers, void (*before)(CO_NODE& node)) {
+  const bool is_locked = has_turns(timers);
+  if (is_locked) {
+    run_in_turns(timers, before);
+  }
+  return is_locked;
+}
+
 void run_real_time(CO_TMR& timers) {
   Span span = {};
   for (bool more = find_span(timers, Share::real_time, span); more;) {
@@ -481,15 +514,16 @@ int16_t COTmrDelete(CO_TMR* tmr, int16_t actId) {
 int16_t COTmrService(CO_TMR* tmr) {
   ASSERT_PTR_ERR(tmr, -1);
   ASSERT_PTR_ERR(tmr->Node, -1);
-  uint32_t now = tmr->Clock;
-  if (port::has_clock(*tmr->Node)) {
-    now = port::now(*tmr->Node);
-  } else if (!port::has_elapsed(*tmr->Node)) {
-    return tmr::has_to_send(*tmr->Node) ? 1 : 0;
+  const CO_NODE& node = *tmr->Node;
+  const bool has_clock = port::has_clock(node);
+  bool has_due = false;
+  if (has_clock || port::has_elapsed(node)) {
+    const uint32_t now = has_clock ? port::now(node) : tmr->Clock;
+    tmr::advance(*tmr, now);
+    tmr::program(*tmr, now);
+    has_due = tmr::has_due(*tmr);
   }
-  tmr::advance(*tmr, now);
-  tmr::program(*tmr, now);
-  return tmr::has_due(*tmr) || tmr::has_to_send(*tmr->Node) ? 1 : 0;
+  return has_due || tmr::has_to_send(node) ? 1 : 0;
 }
 
 }  // extern "C"

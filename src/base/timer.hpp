@@ -5,7 +5,7 @@
 #pragma once
 
 #include "co_cfg.h"
-#include "co_tmr.h"
+#include "co_core.h"
 
 namespace co::tmr {
 
@@ -24,10 +24,26 @@ void restart(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks);
 // Stops a timer that is part of its owner; no effect on a stopped timer.
 void stop(CO_TMR& timers, CO_TMR_MEM& timer);
 
+// Returns the link to the first armed timer. Atomic: called without the timer lock, too.
+[[nodiscard]] inline CO_TMR_MEM** first_armed(const CO_TMR& timers) {
+  return __atomic_load_n(&timers.Armed, __ATOMIC_RELAXED);
+}
+
+// Returns whether timers have elapsed whose actions have not run yet.
+[[nodiscard]] inline bool has_due(const CO_TMR& timers) { return first_armed(timers) != &timers.First; }
+
+// Runs the actions of all elapsed timers: at least one has elapsed. Timers that elapse while actions run are left to
+// the next call.
+void run_due(CO_TMR& timers);
+
 // Calls before(), then runs the actions of all timers that have elapsed; where there is a real-time thread, only the
-// actions of the mainline. Where the node has a lock, before() and the search for timers hold it together, and each
-// action holds it anew.
-void run(CO_TMR& timers, void (*before)(CO_NODE_T& node));
+// actions of the mainline. before() and the search for timers hold the node lock together, and each action holds it
+// anew. Returns false, without effect, if the node has neither a node lock nor a real-time thread.
+#if USE_REAL_TIME
+[[nodiscard]] bool run_locked(CO_TMR& timers, void (*before)(CO_NODE& node));
+#else
+[[nodiscard]] inline bool run_locked(CO_TMR&, void (*)(CO_NODE& node)) { return false; }
+#endif
 
 // Marks a timer of SYNC or of a PDO: where there is a real-time thread, run_real_time() runs its action. To be called
 // once for a timer that is part of its owner.

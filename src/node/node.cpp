@@ -229,7 +229,7 @@ void resume_sending(CO_NODE& node) {
 
 // Calls resume_sending() for COTmrProcess(), so that a firmware may call CONodeProcess() for received frames only.
 // Where there is a real-time thread, resets are left to CONodeProcess().
-void resume_sending_between_frames(CO_NODE& node) {
+[[gnu::noinline]] void resume_sending_between_frames(CO_NODE& node) {
   if (node.State != event::running) {
     return;
   }
@@ -294,7 +294,7 @@ void drop_received(CO_NODE& node) {
   if (node.Ext == nullptr || node.State != 0) {
     return;
   }
-  CO_IF_FRM frame = wire::empty_frame(0, 0);
+  CO_IF_FRM frame = wire::empty_frame();
   if (port::can_read(node, frame) > 0) {
     count(node.Count.Received);
     count(node.Count.Unclaimed);
@@ -430,7 +430,7 @@ void CONodeProcess(CO_NODE* node) {
       return;
     }
   }
-  CO_IF_FRM frame = wire::empty_frame(0, 0);
+  CO_IF_FRM frame = wire::empty_frame();
   if (!node::receive(*node, frame)) {
     return;
   }
@@ -443,7 +443,22 @@ void CONodeProcess(CO_NODE* node) {
 void COTmrProcess(CO_TMR* tmr) {
   ASSERT_PTR_FATAL(tmr);
   ASSERT_PTR_FATAL(tmr->Node);
-  tmr::run(*tmr, node::resume_sending_between_frames);
+  if (tmr::run_locked(*tmr, node::resume_sending_between_frames)) {
+    return;
+  }
+  CO_NODE& node = *tmr->Node;
+  // Like waits_to_send(), without a branch; resume_sending_between_frames() tests again.
+  const bool waits = USE_FAST_PATHS == 0 || (node.TxQueue.Num | node.Paused) != 0;
+  if (waits) {
+    node::resume_sending_between_frames(node);
+  }
+  if (!tmr::has_due(*tmr)) {
+    return;
+  }
+  if (!waits && node.State == event::running) {
+    node.Burst = 0;  // the limit of offer() begins anew
+  }
+  tmr::run_due(*tmr);
 }
 
 #if USE_REAL_TIME
@@ -461,7 +476,7 @@ void CONodeRealTime(CO_NODE* node) {
   }
   const event::Serving serving(*node);
   transmit::flush(*node);
-  CO_IF_FRM frame = wire::empty_frame(0, 0);
+  CO_IF_FRM frame = wire::empty_frame();
   while ((node->State & event::running) != 0 && receive::read(*node, frame) > 0) {
     count(node->Count.Received);
     node::share_out(*node, frame);
