@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file transmit.hpp
-/// Transmission by priority through three mailboxes from which the controller selects the frame with the lowest
-/// identifier.
+/// Transmission by priority through a few mailboxes from which the controller selects the frame with the lowest
+/// identifier: three (CO_CAN_TRANSMIT), or a single one, for controllers that can abort its frame.
 ///
 /// A frame is accepted if it keeps the order that the node requires. It waits for at most one frame of lower priority
 /// of this node, the one on the wire, unless more than five frames are waiting here:
@@ -16,10 +16,11 @@
 ///
 /// All other frames are refused. The node's queue keeps them, ordered by priority, and offers them again.
 ///
-/// Controller is a class with these members; mailboxes are numbered 0…2, a set of them is a bit mask:
+/// Box is CO_CAN_TRANSMIT, or a structure with the same members and another number of mailboxes (elements of Frame).
+/// Controller is a class with these members; mailboxes are numbered from 0 on, a set of them is a bit mask:
 ///
 ///     Completed take_completed(unsigned used);  // reads and acknowledges the results of requests and aborts
-///     unsigned free_mailbox(unsigned used);     // a mailbox for a frame; CO_CAN_MAILBOXES: none
+///     unsigned free_mailbox(unsigned used);     // a mailbox for a frame; the number of mailboxes: none
 ///     void request(unsigned mailbox, const CO_IF_FRM& frame);
 ///     void abort(unsigned mailboxes);
 ///     bool is_delayed(unsigned mailbox);  // the frame lost the arbitration, or another node is transmitting
@@ -74,7 +75,17 @@ inline std::uint32_t rank(std::uint32_t identifier) {
 }
 
 /// \cond internal
-inline constexpr unsigned all_mailboxes = (1U << CO_CAN_MAILBOXES) - 1;
+template <typename Box>
+inline constexpr unsigned mailboxes_of = sizeof(Box::Frame) / sizeof(CO_IF_FRM);
+template <typename Box>
+inline constexpr unsigned all_of = (1U << mailboxes_of<Box>)-1;
+template <typename Box>
+inline constexpr unsigned displaced_of = sizeof(Box::Displaced) / sizeof(CO_IF_FRM);
+// Displaced frames at most, without those that take_back() adds to a box with a single mailbox.
+template <typename Box>
+inline constexpr unsigned room_of = mailboxes_of<Box> == 1 ? displaced_of<Box> - 1 : displaced_of<Box>;
+
+inline constexpr unsigned all_mailboxes = all_of<CO_CAN_TRANSMIT>;
 
 // Reads of the status register after an abort request, until the mailbox is free. A frame that is not on the wire is
 // aborted within a few clock periods of the controller.
@@ -104,9 +115,10 @@ inline void compare(Waiting& waiting, const CO_IF_FRM& frame, const CO_IF_FRM& q
   waiting.is_blocked = waiting.is_blocked || is_same || is_boot_up(queued);
 }
 
-inline Waiting compare_all(const CO_CAN_TRANSMIT& box, const CO_IF_FRM& frame) {
+template <typename Box>
+Waiting compare_all(const Box& box, const CO_IF_FRM& frame) {
   Waiting waiting;
-  for (unsigned n = 0; n < CO_CAN_MAILBOXES; ++n) {
+  for (unsigned n = 0; n < mailboxes_of<Box>; ++n) {
     if ((box.Used & ~box.Dropped & (1U << n)) == 0) {
       continue;
     }
@@ -120,13 +132,13 @@ inline Waiting compare_all(const CO_CAN_TRANSMIT& box, const CO_IF_FRM& frame) {
 }
 
 // Stores the results of completed requests. A frame that was aborted to free its mailbox is kept.
-template <typename Controller>
-void collect(CO_CAN_TRANSMIT& box, Controller& controller) {
+template <typename Box, typename Controller>
+void collect(Box& box, Controller& controller) {
   const Completed now = controller.take_completed(box.Used);
   const unsigned done = now.done & box.Used;
   const unsigned kept = done & ~now.sent & ~box.Dropped;
-  for (unsigned n = 0; n < CO_CAN_MAILBOXES; ++n) {
-    if ((kept & (1U << n)) != 0 && box.DisplacedNum < CO_CAN_DISPLACED) {
+  for (unsigned n = 0; n < mailboxes_of<Box>; ++n) {
+    if ((kept & (1U << n)) != 0 && box.DisplacedNum < displaced_of<Box>) {
       box.Displaced[box.DisplacedNum++] = box.Frame[n];
     }
   }
@@ -135,10 +147,10 @@ void collect(CO_CAN_TRANSMIT& box, Controller& controller) {
   clear(box.Aborting, done);
 }
 
-template <typename Controller>
-bool fill(CO_CAN_TRANSMIT& box, Controller& controller, const CO_IF_FRM& frame) {
+template <typename Box, typename Controller>
+bool fill(Box& box, Controller& controller, const CO_IF_FRM& frame) {
   const unsigned mailbox = controller.free_mailbox(box.Used);
-  if (mailbox >= CO_CAN_MAILBOXES) {
+  if (mailbox >= mailboxes_of<Box>) {
     return false;
   }
   box.Frame[mailbox] = frame;
@@ -148,8 +160,8 @@ bool fill(CO_CAN_TRANSMIT& box, Controller& controller, const CO_IF_FRM& frame) 
 }
 
 // Moves displaced frames back to free mailboxes, the one of highest priority first.
-template <typename Controller>
-void restore(CO_CAN_TRANSMIT& box, Controller& controller) {
+template <typename Box, typename Controller>
+void restore(Box& box, Controller& controller) {
   while (box.DisplacedNum != 0) {
     unsigned first = 0;
     for (unsigned n = 1; n < box.DisplacedNum; ++n) {
@@ -163,10 +175,11 @@ void restore(CO_CAN_TRANSMIT& box, Controller& controller) {
 }
 
 // Returns the mailbox with the frame of lowest priority among those that are not being aborted and whose priority is
-// lower than order; CO_CAN_MAILBOXES: none.
-inline unsigned mailbox_to_displace(const CO_CAN_TRANSMIT& box, std::uint32_t order) {
-  unsigned last = CO_CAN_MAILBOXES;
-  for (unsigned n = 0; n < CO_CAN_MAILBOXES; ++n) {
+// lower than order; the number of mailboxes: none.
+template <typename Box>
+unsigned mailbox_to_displace(const Box& box, std::uint32_t order) {
+  unsigned last = mailboxes_of<Box>;
+  for (unsigned n = 0; n < mailboxes_of<Box>; ++n) {
     const bool is_aborted = ((box.Aborting | box.Dropped) & (1U << n)) != 0;
     const std::uint32_t present = rank(box.Frame[n].Identifier);
     if (!is_aborted && present > order) {
@@ -178,9 +191,10 @@ inline unsigned mailbox_to_displace(const CO_CAN_TRANSMIT& box, std::uint32_t or
 }
 
 // Returns the number of displaced frames when all aborts have ended without transmission.
-inline unsigned displaced_at_most(const CO_CAN_TRANSMIT& box) {
+template <typename Box>
+unsigned displaced_at_most(const Box& box) {
   unsigned number = box.DisplacedNum;
-  for (unsigned n = 0; n < CO_CAN_MAILBOXES; ++n) {
+  for (unsigned n = 0; n < mailboxes_of<Box>; ++n) {
     number += (box.Aborting >> n) & 1U;
   }
   return number;
@@ -189,12 +203,12 @@ inline unsigned displaced_at_most(const CO_CAN_TRANSMIT& box) {
 // Aborts a frame of lower priority than order in order to use its mailbox. The abort of a frame on the wire takes as
 // long as that frame; the next frame is aborted then. Returns false if no mailbox is free afterwards, or if there could
 // be more than room displaced frames.
-template <typename Controller>
-bool displace(CO_CAN_TRANSMIT& box, Controller& controller, std::uint32_t order, unsigned room) {
+template <typename Box, typename Controller>
+bool displace(Box& box, Controller& controller, std::uint32_t order, unsigned room) {
   constexpr unsigned attempts = 2;
-  for (unsigned attempt = 0; attempt < attempts && box.Used == all_mailboxes; ++attempt) {
+  for (unsigned attempt = 0; attempt < attempts && box.Used == all_of<Box>; ++attempt) {
     const unsigned mailbox = mailbox_to_displace(box, order);
-    if (mailbox == CO_CAN_MAILBOXES || displaced_at_most(box) >= room) {
+    if (mailbox == mailboxes_of<Box> || displaced_at_most(box) >= room) {
       return false;
     }
     set(box.Aborting, 1U << mailbox);
@@ -203,22 +217,47 @@ bool displace(CO_CAN_TRANSMIT& box, Controller& controller, std::uint32_t order,
       collect(box, controller);
     }
   }
-  return box.Used != all_mailboxes;
+  return box.Used != all_of<Box>;
+}
+// Stores a frame beside displaced ones, one of which would be requested before it when the frame on the wire has been
+// sent. For a box with a single mailbox. Returns false if the frame need not be stored, or cannot.
+template <typename Box>
+bool store_beside(Box& box, const CO_IF_FRM& frame, unsigned room) {
+  bool is_needed = false;
+  for (unsigned n = 0; n < box.DisplacedNum; ++n) {
+    is_needed = is_needed || rank(frame.Identifier) < rank(box.Displaced[n].Identifier);
+  }
+  if (!is_needed || displaced_at_most(box) >= room) {
+    return false;
+  }
+  box.Displaced[box.DisplacedNum++] = frame;
+  return true;
+}
+
+// Returns whether a displaced frame has a higher priority than that in the only mailbox.
+template <typename Box>
+bool is_overtaken(const Box& box) {
+  for (unsigned n = 0; n < box.DisplacedNum; ++n) {
+    if (rank(box.Displaced[n].Identifier) < rank(box.Frame[0].Identifier)) {
+      return box.Used != 0;
+    }
+  }
+  return false;
 }
 /// \endcond
 
 /// Stores the results of transmissions and refills free mailboxes. Called in the transmit interrupt, and in the loop
 /// while that interrupt is disabled.
-template <typename Controller>
-void finish(CO_CAN_TRANSMIT& box, Controller& controller) {
+template <typename Box, typename Controller>
+void finish(Box& box, Controller& controller) {
   collect(box, controller);
   restore(box, controller);
 }
 
 /// Accepts a frame for transmission, or refuses it (false). Called in the loop while the transmit interrupt is
 /// disabled.
-template <typename Controller>
-bool accept(CO_CAN_TRANSMIT& box, Controller& controller, const CO_IF_FRM& frame) {
+template <typename Box, typename Controller>
+bool accept(Box& box, Controller& controller, const CO_IF_FRM& frame) {
   finish(box, controller);
   const Waiting waiting = compare_all(box, frame);
   const std::uint32_t order = rank(frame.Identifier);
@@ -228,25 +267,43 @@ bool accept(CO_CAN_TRANSMIT& box, Controller& controller, const CO_IF_FRM& frame
   if (waiting.number == 1 && (order > waiting.lowest || !controller.is_delayed(waiting.only))) {
     return false;
   }
-  if (box.Used != all_mailboxes) {
+  if (box.Used != all_of<Box>) {
     return fill(box, controller, frame);
   }
   // Half of the places are reserved for frames of higher priority than all that wait.
-  const unsigned room = order < waiting.lowest ? CO_CAN_DISPLACED : CO_CAN_DISPLACED / 2;
-  return displace(box, controller, order, room) && fill(box, controller, frame);
+  const unsigned room = order < waiting.lowest ? room_of<Box> : room_of<Box> / 2;
+  if (displace(box, controller, order, room)) {
+    return fill(box, controller, frame);
+  }
+  return mailboxes_of<Box> == 1 && store_beside(box, frame, room);
 }
 
 /// Discards all frames. A frame that is on the wire is completed, but not repeated after an error. Called while the
 /// transmit interrupt is disabled.
-template <typename Controller>
-void drop(CO_CAN_TRANSMIT& box, Controller& controller) {
+template <typename Box, typename Controller>
+void drop(Box& box, Controller& controller) {
   controller.abort(box.Used);
   box.Dropped = box.Used;
   box.DisplacedNum = 0;
 }
 
+/// Takes the frames back from the mailboxes after the controller has discarded its requests. finish() requests them
+/// again. For a box with a single mailbox.
+template <typename Box>
+void take_back(Box& box) {
+  for (unsigned n = 0; n < mailboxes_of<Box>; ++n) {
+    if ((box.Used & ~box.Dropped & (1U << n)) != 0) {
+      box.Displaced[box.DisplacedNum++] = box.Frame[n];
+    }
+  }
+  box.Used = 0;
+  box.Dropped = 0;
+  box.Aborting = 0;
+}
+
 /// Discards all frames, after the controller has discarded its own.
-inline void forget(CO_CAN_TRANSMIT& box) {
+template <typename Box>
+void forget(Box& box) {
   box.DisplacedNum = 0;
   box.Used = 0;
   box.Dropped = 0;
