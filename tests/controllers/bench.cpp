@@ -7,10 +7,14 @@
 #include "co_can_bxcan.h"
 #include "co_can_fdcan.h"
 #include "co_can_flexcan.h"
+#include "co_can_sja1000.h"
+#include "co_can_twai.h"
 #include "fdcan_rates.hpp"
 #include "flexcan.hpp"
 #include "flexcan_rates.hpp"
 #include "m_can.hpp"
+#include "pelican.hpp"
+#include "sja1000_rates.hpp"
 #include "support/notation.hpp"
 
 namespace test {
@@ -192,6 +196,99 @@ class FlexcanController : public Controller {
   CO_CAN_FLEXCAN can_{};
 };
 
+// Access functions of SJA1000 that access the model.
+std::uint8_t read_sja1000(void* ctx, std::uint8_t address) {
+  return static_cast<std::uint8_t>(lexican_model_read(static_cast<PeliCan*>(ctx)->address() + 4U * address));
+}
+void write_sja1000(void* ctx, std::uint8_t address, std::uint8_t value) {
+  lexican_model_write(static_cast<PeliCan*>(ctx)->address() + 4U * address, value);
+}
+constexpr CO_SJA1000_ACCESS sja1000_access = {read_sja1000, write_sja1000};
+
+std::uintptr_t sja1000_address(Kind kind, unsigned number) {
+  return distance_of_kinds * static_cast<unsigned>(kind) + 0x1000 * (number + 1);
+}
+
+// The model of SJA1000 or TWAI, and what their contexts have in common.
+template <class Context>
+class Sja1000Base : public Controller {
+ public:
+  Sja1000Base(CanWire& wire, Kind kind, const ControllerOptions& options)
+      : model(wire, sja1000_address(kind, options.number), model_options(kind, options)), frames_(options.frames) {
+    can_.Rates = rates_;
+    can_.RateNum = 1;
+    can_.Frames = frames_.data();
+    can_.FrameNum = options.frames;
+    can_.Recovery = options.recovery;
+    can_.Loopback = options.loopback;
+  }
+
+  void* context() override { return &can_; }
+  bool has_interrupt() const override { return model.interrupt(); }
+  CanNode& node() override { return model.node(); }
+  RegisterModel& registers() override { return model; }
+  std::uint32_t bit_rate() const override { return model.bit_rate(); }
+  unsigned sample_point() const override { return model.sample_point(); }
+  void set_timing(std::uint32_t baud, std::uint32_t timing) override { rates_[0] = {baud, timing}; }
+  unsigned fifo_places() const override { return 16; }  // frames with a byte of data
+
+  PeliCan model;
+
+ protected:
+  static PeliCan::Options model_options(Kind kind, const ControllerOptions& options) {
+    PeliCan::Options result;
+    result.kind = kind == Kind::sja1000 ? PeliCanKind::sja1000
+                  : kind == Kind::esp32 ? PeliCanKind::esp32
+                                        : PeliCanKind::esp32c3;
+    result.clock = options.clock;
+    return result;
+  }
+
+  CO_CAN_SJA1000_RATE rates_[1]{};
+  Context can_{};
+
+ private:
+  std::vector<CO_IF_FRM> frames_;
+};
+
+class Sja1000Controller : public Sja1000Base<CO_CAN_SJA1000> {
+ public:
+  Sja1000Controller(CanWire& wire, const ControllerOptions& options) : Sja1000Base(wire, Kind::sja1000, options) {
+    driver = &Sja1000CanDriver;
+    can_.Access = &sja1000_access;
+    can_.AccessCtx = &model;
+    rates_[0] = co::sja1000_rate(Bench::baud, co::find_bit_timing(options.clock / 2, Bench::baud, co::sja1000_limits));
+  }
+
+  void call_interrupt() override { COCanSja1000Interrupt(&can_); }
+  bool has_frames() const override { return COCanSja1000HasFrames(&can_); }
+  std::uint32_t lost() const override { return COCanSja1000Lost(&can_); }
+  CO_CAN_ERROR_COUNTERS errors() const override { return COCanSja1000Errors(&can_); }
+};
+
+class TwaiController : public Sja1000Base<CO_CAN_TWAI> {
+ public:
+  TwaiController(CanWire& wire, Kind kind, const ControllerOptions& options) : Sja1000Base(wire, kind, options) {
+    const bool is_esp32 = kind == Kind::esp32;
+    const co::BitTimingLimits& limits = is_esp32 ? co::sja1000_limits : co::twai_limits;
+    const co::BitTiming timing = co::find_bit_timing(options.clock / 2, Bench::baud, limits);
+    driver = &TwaiCanDriver;
+    can_.Registers = pointer<volatile std::uint32_t>(model.address());
+    can_.IsEsp32 = is_esp32;
+    can_.ResetPeripheral = [] { only_one->hardware_reset(); };
+    rates_[0] = is_esp32 ? co::sja1000_rate(Bench::baud, timing) : co::twai_rate(Bench::baud, timing);
+    only_one = is_esp32 ? &model : only_one;
+  }
+
+  void call_interrupt() override { COCanTwaiInterrupt(&can_); }
+  bool has_frames() const override { return COCanTwaiHasFrames(&can_); }
+  std::uint32_t lost() const override { return COCanTwaiLost(&can_); }
+  CO_CAN_ERROR_COUNTERS errors() const override { return COCanTwaiErrors(&can_); }
+
+ private:
+  static inline PeliCan* only_one = nullptr;  // ESP32 has one controller
+};
+
 bool is_error(const std::string& text) { return text.size() > 8 && text[8] == '#' && text[0] == '2'; }
 
 }  // namespace
@@ -203,6 +300,9 @@ std::string name_of(Kind kind) {
     case Kind::mcan: return "M_CAN";
     case Kind::flexcan2: return "FlexCAN2";
     case Kind::flexcan3: return "FlexCAN3";
+    case Kind::sja1000: return "SJA1000";
+    case Kind::esp32: return "TWAI of ESP32";
+    case Kind::esp32c3: return "TWAI of ESP32-C3";
   }
   return "";
 }
@@ -295,6 +395,10 @@ Controller& Bench::add(Kind kind, const ControllerOptions& options) {
     controllers_.push_back(std::make_unique<BxcanController>(wire, options, master));
   } else if (is_flexcan(kind)) {
     controllers_.push_back(std::make_unique<FlexcanController>(wire, kind, options));
+  } else if (kind == Kind::sja1000) {
+    controllers_.push_back(std::make_unique<Sja1000Controller>(wire, options));
+  } else if (kind == Kind::esp32 || kind == Kind::esp32c3) {
+    controllers_.push_back(std::make_unique<TwaiController>(wire, kind, options));
   } else {
     const unsigned words = kind == Kind::fdcan ? 2 * MCan::fixed_words : MCan::configurable_words;
     const std::uintptr_t at =

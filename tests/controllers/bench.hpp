@@ -32,8 +32,14 @@ class Bench;
 
 /// Controllers: bxCAN, M_CAN with fixed message memory (FDCAN), M_CAN with configurable message memory, FlexCAN2 with
 /// the receive FIFO, FlexCAN3 with message buffers that receive.
-enum class Kind : std::uint8_t { bxcan, fdcan, mcan, flexcan2, flexcan3 };
-inline constexpr Kind all_kinds[] = {Kind::bxcan, Kind::fdcan, Kind::mcan, Kind::flexcan2, Kind::flexcan3};
+enum class Kind : std::uint8_t { bxcan, fdcan, mcan, flexcan2, flexcan3, sja1000, esp32, esp32c3 };
+inline constexpr Kind all_kinds[] = {Kind::bxcan,    Kind::fdcan,   Kind::mcan,  Kind::flexcan2,
+                                     Kind::flexcan3, Kind::sja1000, Kind::esp32, Kind::esp32c3};
+/// Controllers with filters for single identifiers that can change on the bus, and with a loopback that is disconnected
+/// from the bus.
+inline constexpr Kind mailbox_kinds[] = {Kind::bxcan, Kind::fdcan, Kind::mcan, Kind::flexcan2, Kind::flexcan3};
+/// SJA1000 and TWAI of ESP32 and ESP32-C3.
+inline constexpr Kind sja1000_kinds[] = {Kind::sja1000, Kind::esp32, Kind::esp32c3};
 inline bool is_flexcan(Kind kind) { return kind == Kind::flexcan2 || kind == Kind::flexcan3; }
 std::string name_of(Kind kind);
 

@@ -134,9 +134,11 @@ struct Pair {
   Kind device;
   Kind master;
 };
-constexpr Pair pairs[] = {{Kind::bxcan, Kind::bxcan},      {Kind::fdcan, Kind::fdcan}, {Kind::mcan, Kind::mcan},
-                          {Kind::bxcan, Kind::fdcan},      {Kind::mcan, Kind::bxcan},  {Kind::flexcan2, Kind::flexcan2},
-                          {Kind::flexcan3, Kind::flexcan2}};
+constexpr Pair pairs[] = {{Kind::bxcan, Kind::bxcan},       {Kind::fdcan, Kind::fdcan},
+                          {Kind::mcan, Kind::mcan},         {Kind::bxcan, Kind::fdcan},
+                          {Kind::mcan, Kind::bxcan},        {Kind::flexcan2, Kind::flexcan2},
+                          {Kind::flexcan3, Kind::flexcan2}, {Kind::sja1000, Kind::sja1000},
+                          {Kind::esp32c3, Kind::sja1000},   {Kind::esp32, Kind::fdcan}};
 
 ControllerOptions options_of(unsigned number, CO_CAN_RECOVERY recovery) {
   ControllerOptions options;
@@ -274,6 +276,9 @@ TEST_CASE("nodes on controllers: PDOs in both directions at the same time, EMCY"
 
 TEST_CASE("nodes on controllers: only the identifiers of the dictionary reach the node") {
   for (const Pair& pair : pairs) {
+    if (pair.device >= Kind::sja1000) {
+      continue;  // two filters pass further identifiers
+    }
     CAPTURE(name_of(pair));
     Network net(pair);
     for (std::uint32_t id = 0; id < 0x800; id += 3) {  // the device receives 000h, 705h (guarding) of these

@@ -212,7 +212,7 @@ void CanNode::sample_tail(bool level) {
 }
 
 void CanNode::sample_ack(bool level) {
-  if (is_transmitter_ && level == recessive && !mode_.is_loopback) {
+  if (is_transmitter_ && level == recessive && !mode_.is_loopback && !mode_.needs_no_acknowledgement) {
     signal_error(CanError::ack);
     return;
   }

@@ -60,6 +60,7 @@ struct CanMode {
   bool is_listen_only = false;      ///< also error passive with stopped counters; does not see its own bits (FlexCAN)
   bool pauses = false;              ///< waits two further bits after each frame that it sent (transmit pause of M_CAN)
   bool exception_is_error = false;  ///< a protocol exception is signalled as a form error
+  bool needs_no_acknowledgement = false;  ///< a frame without acknowledgement is no error
   FdMode fd = FdMode::classic;
 };
 
