@@ -170,7 +170,7 @@ TEST_CASE("access hook, SDO: accesses of the application are not checked") {
   CHECK(log.sdo.empty());
 }
 
-#if USE_CSDO
+#if USE_CSDO && USE_CSDO_OWN
 std::uint32_t own_result;
 
 TEST_CASE("access hook, SDO: accesses of an SDO client to its own node are not checked") {

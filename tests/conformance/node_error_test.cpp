@@ -71,7 +71,7 @@ TEST_CASE("node error: an application-defined type that refuses a value or a seg
   }
 }
 
-#if USE_CSDO
+#if USE_CSDO && USE_CSDO_OWN
 TEST_CASE("node error: a refused request of an SDO client to its own node is reported only to its callback") {
   LoggedStream value;
   value.data = {1, 2, 3, 4};

@@ -250,7 +250,7 @@ TEST_CASE("OD end: a partial access of the application ends when its extension i
   CHECK(Bytes(bytes, bytes + 20) == counting(20));
 }
 
-#if USE_CSDO
+#if USE_CSDO && USE_CSDO_OWN
 
 TEST_CASE("OD end: an access of an SDO client to its own node is aborted, and End of the type is called") {
   for (const bool uploads : {true, false}) {

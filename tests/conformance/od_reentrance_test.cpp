@@ -409,7 +409,7 @@ TEST_CASE("OD re-entrance: a TPDO may read the stream within End of its download
 
 #endif
 
-#if USE_CSDO
+#if USE_CSDO && USE_CSDO_OWN
 
 TEST_CASE("OD re-entrance: within an access of an SDO client to its own node the application may read the object") {
   LoggedExtension extension;

@@ -209,6 +209,20 @@ TEST_CASE("SDO client: bit 31 of either COB-ID disables the client [301:7.5.2.34
   }
 }
 
+#if !USE_CSDO_OWN
+TEST_CASE("SDO client: without USE_CSDO_OWN a client whose server is the same node is not configured") {
+  SdoClient node(small(), local_entries());
+  check_not_configured(node);
+  CHECK(node.csdo()->State == CO_CSDO_STATE_INVALID);
+  node.after(2000ms);
+  node.silent();
+  node.entry[0] = {0x605, 0x585, 5};
+  check_asks(node, "605", "585");
+  node.entry[0].node_id = 1;
+  check_not_configured(node);
+}
+#endif
+
 TEST_CASE("SDO client: invalid CAN-IDs switch the client off, and nothing is sent at 000h") {
   struct Case {
     std::uint32_t tx;

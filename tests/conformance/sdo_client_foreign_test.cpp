@@ -132,7 +132,7 @@ TEST_CASE("SDO client: an answer after a cancel does not disturb the next transf
   node.has_written();
 }
 
-#if USE_SDO_BLOCK
+#if USE_CSDO_BLOCK
 
 void check_ignores_others(SdoClient& node) {
   for (const char* other : others) {

@@ -4,7 +4,7 @@
 
 #include "support/sdo_client_fixture.hpp"
 
-#if USE_CSDO
+#if USE_CSDO && USE_CSDO_OWN
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include "support/heap_watch.hpp"
 #include "support/sdo_client_fixture.hpp"
 
-#if USE_CSDO
+#if USE_CSDO && USE_CSDO_OWN
 
 namespace {
 

@@ -110,7 +110,7 @@ TEST_CASE("SDO block upload: its time-out runs although its type changes the NMT
 
 #endif
 
-#if USE_CSDO
+#if USE_CSDO && USE_CSDO_OWN
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "support/sdo_pair_faults.hpp"
 #include "support/sdo_pair_foreign.hpp"
 
-#if USE_CSDO && USE_SDO_BLOCK
+#if USE_CSDO && USE_CSDO_BLOCK
 
 namespace {
 

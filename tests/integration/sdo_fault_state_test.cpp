@@ -9,7 +9,7 @@
 
 #include "support/sdo_pair.hpp"
 
-#if USE_CSDO && USE_SDO_BLOCK
+#if USE_CSDO && USE_CSDO_BLOCK
 
 namespace {
 

@@ -31,7 +31,7 @@ class Course {
  public:
   Course(std::uint32_t bytes, bool block)
       : segments_((bytes + 6) / 7),
-        blocks_(USE_SDO_BLOCK != 0 && block && bytes >= CO_CSDO_BLOCK),
+        blocks_(USE_CSDO_BLOCK != 0 && block && bytes >= CO_CSDO_BLOCK),
         pair_({bytes, block}) {}
 
   // Disturbs every \a stride-th position, the first and the last ones. \a in_turn: one kind of fault for each, else

@@ -11,12 +11,13 @@ lane() {
   configuration unsigned-char "-O2 -funsigned-char"
   configuration short-enums "-O2 -fshort-enums"
   configuration asserts "-O0 -UNDEBUG"
-  # Smallest buffers, most channels, slowest block transfer, clients without block transfer.
+  # Smallest buffers, most channels, slowest block transfer, no block transfer, clients with the fewest functions.
   configuration one-segment "-O2 -DCO_SDO_BUF_SEG=1" slave
   configuration two-segments "-O2 -DCO_SDO_BUF_SEG=2 -DCO_SSDO_N=128 -DCO_CSDO_N=100" slave
   configuration eight-segments "-O2 -DCO_SDO_BUF_SEG=8" slave
   configuration segment-a-call "-O2 -DCO_SDO_BLOCK_PACE=1" slave
   configuration no-block "-O2 -DUSE_SDO_BLOCK=0" slave
+  configuration small-client "-O2 -DUSE_CSDO_BLOCK=0 -DUSE_CSDO_OWN=0" slave
   # Mapping of single bits, no remote requests (and no LSS in Operational), restricted CAN-IDs permitted, most PDOs.
   configuration pdo-bits "-O2 -DUSE_PDO_BITS=1"
   configuration no-remote "-O2 -DUSE_PDO_RTR=0 -DCO_LSS_IN_OPERATIONAL=0"

@@ -5,7 +5,7 @@ packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}" gcc-riscv64-unkno
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/lib/libc.a)
 
 presets=(minimal slave full)
-switches=(USE_CALLBACKS=0 USE_DICT_CHECK=0 USE_FAST_PATHS=0 USE_CSDO=0 USE_SDO_BLOCK=0 CO_RPDO_N=0 CO_TPDO_N=0 USE_PDO_BITS=1 USE_PDO_RTR=0 USE_MPDO=1 USE_OD=1
+switches=(USE_CALLBACKS=0 USE_DICT_CHECK=0 USE_FAST_PATHS=0 USE_CSDO=0 USE_SDO_BLOCK=0 USE_CSDO_BLOCK=0 USE_CSDO_OWN=0 CO_RPDO_N=0 CO_TPDO_N=0 USE_PDO_BITS=1 USE_PDO_RTR=0 USE_MPDO=1 USE_OD=1
   USE_SYNC=0 USE_TIME=1 USE_EMCY=0 CO_EMCY_CONS_N=1 CO_HBCONS_N=0 USE_GUARDING=0 USE_NMT_MASTER=1 USE_LED=1 USE_LSS=0 USE_LSS_MASTER=1 USE_PARA=0
   USE_REAL_TIME=1)
 of=$results/sizes

@@ -3,6 +3,8 @@
 #include "base/transmit.hpp"
 #include "service/sdo_client/transfer.hpp"
 
+#if USE_CSDO && USE_CSDO_BLOCK
+
 namespace co::sdo_client {
 namespace {
 
@@ -33,8 +35,7 @@ uint32_t unused_in_last(uint32_t size) {
   return (wire::segment_bytes - size % wire::segment_bytes) % wire::segment_bytes;
 }
 
-}  // namespace
-
+// Sends the next segment. Returns false if there is none, or the controller does not accept it.
 bool send_segment(CO_CSDO& client) {
   if (state_of(client) != State::block_download || client.Seq == client.BlkSize || has(client, last_sent)) {
     return false;
@@ -53,6 +54,16 @@ bool send_segment(CO_CSDO& client) {
     set(client, last_sent);
   }
   return true;
+}
+
+}  // namespace
+
+bool send_segments(CO_CSDO& client) {
+  bool sent = false;
+  while (send_segment(client)) {
+    sent = true;
+  }
+  return sent;
 }
 
 uint32_t block_download_accepted(Step& step) {
@@ -104,3 +115,5 @@ uint32_t block_download_confirmed(Step& step) {
 }
 
 }  // namespace co::sdo_client
+
+#endif

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Block upload: segments are stored directly in the caller's buffer. [301:7.2.4.3.13-15]
+#include "base/transmit.hpp"
 #include "service/sdo_client/transfer.hpp"
+
+#if USE_CSDO && USE_CSDO_BLOCK
 
 namespace co::sdo_client {
 namespace {
+
+// Quarters of the time-out without segments after which the acknowledge is sent again.
+constexpr uint8_t reminder_quarter = 2;
 
 void begin_block(CO_CSDO& client) {
   client.Seq = 0;
@@ -69,6 +75,16 @@ bool is_right_end(const CO_CSDO& client, const CO_IF_FRM& frame) {
   return wire::response_of(frame.Data[0]) == wire::Response::end_block_upload && n <= client.Size - client.Num &&
          check_total(client, client.Num + n) == no_abort &&
          (!has(client, crc) || wire::crc16(client.Crc, client.Buf + client.Num, n) == wire::get_u16(frame.Data + 1));
+}
+
+// Fills a repeated acknowledge for a server that no longer sends. Returns false if there is nothing to acknowledge.
+bool put_repeated_acknowledge(CO_CSDO& client, CO_IF_FRM& request) {
+  if (has(client, heard)) {
+    end_block(client, request);
+    return true;
+  }
+  put_acknowledge(client, request);
+  return client.AckSeq != 0;
 }
 
 }  // namespace
@@ -145,13 +161,21 @@ uint32_t block_upload_ended(Step& step) {
   return no_abort;
 }
 
-bool put_repeated_acknowledge(CO_CSDO& client, CO_IF_FRM& request) {
-  if (has(client, heard)) {
-    end_block(client, request);
-    return true;
+// A server that stops within a block may have lost the acknowledge, or the client may have lost the last segment of the
+// block.
+void handle_quarter(CO_CSDO& client) {
+  client.Silence = has(client, active) ? 0 : static_cast<uint8_t>(client.Silence + 1);
+  if (client.Silence == quarters) {
+    abort_transfer(client, CO_SDO_ERR_TIMEOUT);
+    return;
   }
-  put_acknowledge(client, request);
-  return client.AckSeq != 0;
+  CO_IF_FRM request = wire::empty_frame(client.TxId);
+  if (client.Silence == reminder_quarter && put_repeated_acknowledge(client, request)) {
+    transmit::send(*client.Node, request);
+  }
+  start_timeout(client);
 }
 
 }  // namespace co::sdo_client
+
+#endif

@@ -37,11 +37,12 @@ Configuration read_configuration(CO_NODE& node, uint16_t number) {
   if (tx == wire::cob_invalid || rx == wire::cob_invalid || !has_id || relative > last_node_id) {
     return found;
   }
-  found.state = CO_CSDO_STATE_IDLE;
-  if (found.node_id != node.NodeId) {
+  const bool is_own = found.node_id == node.NodeId;
+  if (!is_own) {
     found.tx_id = wire::frame_id(tx + relative);
     found.rx_id = wire::frame_id(rx + relative);
   }
+  found.state = is_own && !has_own ? CO_CSDO_STATE_INVALID : CO_CSDO_STATE_IDLE;
   return found;
 }
 

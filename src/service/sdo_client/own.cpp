@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access of an SDO client to the dictionary of the same node, with the rights of the network, without frames.
+#include "base/events.hpp"
+#include "base/timer.hpp"
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/stream.hpp"
 #include "service/sdo_client/transfer.hpp"
+
+#if USE_CSDO && USE_CSDO_OWN
 
 namespace co::sdo_client {
 namespace {
@@ -104,9 +108,8 @@ uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
   return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : abort;
 }
 
-}  // namespace
-
-// Accesses the object. Nested, because a type function of another transfer may have caused the call.
+// Reads or writes the object. Returns an abort code. Nested, because a type function of another transfer may have
+// caused the call.
 uint32_t access_own(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
   const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
@@ -121,4 +124,35 @@ uint32_t access_own(CO_CSDO& client) {
   return taken ? CO_SDO_ERR_TOS_STATE : transfer(client, *obj, direction);
 }
 
+// Requests of type functions are deferred until the access is complete; a change of the NMT state may have ended the
+// transfer meanwhile.
+void run_own_access(void* client_pointer) {
+  CO_CSDO& client = *static_cast<CO_CSDO*>(client_pointer);
+  const event::Serving serving(*client.Node);
+  set_state(client, State::own_served);
+  const uint32_t code = access_own(client);
+  const bool is_over = state_of(client) == State::own_ended;
+  set_state(client, State::own);
+  finish(client, is_over ? client.Ticks : code);
+}
+
+}  // namespace
+
+void queue_own_access(CO_CSDO& client) {
+  client.Num = 0;
+  client.Total = has(client, is_upload) ? 0 : client.Size;
+  set_state(client, State::own);
+  tmr::start(client.Node->Tmr, client.Tmr, 1, 0, run_own_access, &client);
+}
+
+bool defer_end_of_own_access(CO_CSDO& client, uint32_t code) {
+  if (state_of(client) == State::own_served) {
+    set_state(client, State::own_ended);
+    client.Ticks = code;
+  }
+  return state_of(client) == State::own_ended;
+}
+
 }  // namespace co::sdo_client
+
+#endif

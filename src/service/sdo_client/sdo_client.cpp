@@ -13,82 +13,15 @@
 namespace co::sdo_client {
 namespace {
 
-// In a block upload the timer runs for a quarter of the time-out at a time. The acknowledge is sent again after two
-// quarters without segments.
-constexpr uint32_t quarters = 4;
-constexpr uint8_t reminder_quarter = 2;
-
-void on_time(void* client_pointer);
-
-// Returns whether the client receives the segments of a block upload.
-bool receives_block(const CO_CSDO& client) {
-  return state_of(client) == State::block_upload || state_of(client) == State::block_upload_end;
-}
-
-// Starts the time-out for the next response. Time-out 0: the client waits without limit.
-void start_timeout(CO_CSDO& client) {
-  if (client.Ticks == 0) {
-    return;
-  }
-  const uint32_t ticks = receives_block(client) ? (client.Ticks - 1) / quarters + 1 : client.Ticks;
-  clear(client, active);
-  tmr::start(client.Node->Tmr, client.Tmr, ticks, 0, on_time, &client);
-}
-
-// Ends the transfer and calls its callback. Must be the last action of its caller: the callback may start the next
-// transfer. While type functions of an access to the own dictionary may be running, only stores the abort code: the
-// callback is called after them.
-void finish(CO_CSDO& client, uint32_t code) {
-  if (state_of(client) == State::own_served) {
-    set_state(client, State::own_ended);
-    client.Ticks = code;
-  }
-  if (state_of(client) == State::own_ended) {
-    return;
-  }
-  const uint32_t key = client.Key;
-  tmr::stop(client.Node->Tmr, client.Tmr);
-  set_state(client, State::idle);
-  client.State = CO_CSDO_STATE_IDLE;
-  client.Call(&client, CO_GET_IDX(key), CO_GET_SUB(key), code);
-}
-
-// Handles a quarter without segments. A server that stops within a block may have lost the acknowledge, or the client
-// may have lost the last segment of the block.
-void handle_silence(CO_CSDO& client) {
-  client.Silence = has(client, active) ? 0 : static_cast<uint8_t>(client.Silence + 1);
-  if (client.Silence == quarters) {
-    abort_transfer(client, CO_SDO_ERR_TIMEOUT);
-    return;
-  }
-  CO_IF_FRM request = wire::empty_frame(client.TxId);
-  if (client.Silence == reminder_quarter && put_repeated_acknowledge(client, request)) {
-    transmit::send(*client.Node, request);
-  }
-  start_timeout(client);
-}
-
-// Accesses the own dictionary. Requests of type functions are deferred until the access is complete; a change of the
-// NMT state may have ended the transfer meanwhile.
-void run_own_access(CO_CSDO& client) {
-  CO_NODE& node = *client.Node;
-  const event::Serving serving(node);
-  set_state(client, State::own_served);
-  const uint32_t code = access_own(client);
-  const bool is_over = state_of(client) == State::own_ended;
-  set_state(client, State::own);
-  finish(client, is_over ? client.Ticks : code);
-}
-
 void on_time(void* client_pointer) {
   CO_CSDO& client = *static_cast<CO_CSDO*>(client_pointer);
-  if (state_of(client) == State::own) {
-    run_own_access(client);
-  } else if (receives_block(client)) {
-    handle_silence(client);
-  } else {
-    abort_transfer(client, CO_SDO_ERR_TIMEOUT);
+  if constexpr (has_block) {
+    if (receives_block(client)) {
+      handle_quarter(client);
+      return;
+    }
   }
+  abort_transfer(client, CO_SDO_ERR_TIMEOUT);
 }
 
 uint32_t refuse_response(Step&) { return CO_SDO_ERR_CMD; }
@@ -102,7 +35,7 @@ bool is_block_refused(const Step& step) {
 
 // Processes an abort of the server. If it refuses a block transfer, starts again without blocks.
 uint32_t aborted(Step& step) {
-  if (is_block_refused(step)) {
+  if (has_block && is_block_refused(step)) {
     put_initiate(step.client, false, step.request);
     return no_abort;
   }
@@ -130,7 +63,7 @@ constexpr Transition<Response, Service> rows[] = {
 
     {in_transfer, Response::abort, aborted},
 
-#if USE_SDO_BLOCK
+#if USE_CSDO_BLOCK
     {in(State::block_download_initiated, State::block_download), Response::initiate_block_download,
      block_download_accepted},
     {in(State::block_download), Response::acknowledge_block, block_acknowledged},
@@ -151,11 +84,16 @@ bool is_for_another(const CO_CSDO& client, const CO_IF_FRM& frame) {
 
 // Returns the kind of a response. Segments of a block have no command specifier: the state decides.
 Response response_in(const CO_CSDO& client, const CO_IF_FRM& frame) {
-  const bool in_block =
-      USE_SDO_BLOCK != 0 && (state_of(client) == State::block_upload ||
-                             (state_of(client) == State::block_upload_end && is_last_segment_again(client, frame)));
   const uint8_t command = frame.Data[0];
-  return in_block && command != wire::abort_command ? Response::block_segment : wire::response_of(command);
+  if constexpr (has_block) {
+    const State state = state_of(client);
+    const bool in_block =
+        state == State::block_upload || (state == State::block_upload_end && is_last_segment_again(client, frame));
+    if (in_block && command != wire::abort_command) {
+      return Response::block_segment;
+    }
+  }
+  return wire::response_of(command);
 }
 
 CO_ERR send_initiate(CO_CSDO& client) {
@@ -166,15 +104,8 @@ CO_ERR send_initiate(CO_CSDO& client) {
     return CO_ERR_IF_CAN_SEND;
   }
   start_timeout(client);
+  client.State = CO_CSDO_STATE_BUSY;
   return CO_ERR_NONE;
-}
-
-// Starts the access by a timer, so that the callback never runs before the request function has returned.
-void queue_own(CO_CSDO& client) {
-  client.Num = 0;
-  client.Total = has(client, is_upload) ? 0 : client.Size;
-  set_state(client, State::own);
-  tmr::start(client.Node->Tmr, client.Tmr, 1, 0, on_time, &client);
 }
 
 // Converts the time-out to ticks. Time-outs beyond the timer's range are limited to the longest time.
@@ -186,13 +117,14 @@ uint32_t ticks(const CO_NODE& node, uint32_t timeout) {
 CO_ERR start(CO_CSDO& client, uint32_t timeout) {
   const CO_NODE& node = *client.Node;
   client.Ticks = ticks(node, timeout);
-  if (client.NodeId == node.NodeId) {
-    queue_own(client);
-  } else if (const CO_ERR err = send_initiate(client); err != CO_ERR_NONE) {
-    return err;
+  if constexpr (has_own) {
+    if (client.NodeId == node.NodeId) {
+      queue_own_access(client);
+      client.State = CO_CSDO_STATE_BUSY;
+      return CO_ERR_NONE;
+    }
   }
-  client.State = CO_CSDO_STATE_BUSY;
-  return CO_ERR_NONE;
+  return send_initiate(client);
 }
 
 CO_ERR check(CO_CSDO* client, const uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback) {
@@ -221,15 +153,6 @@ CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CS
   return start(*client, timeout);
 }
 
-// Returns whether any segment was sent.
-bool send_segments(CO_CSDO& client) {
-  bool sent = false;
-  while (send_segment(client)) {
-    sent = true;
-  }
-  return sent;
-}
-
 // Not inlined: relative to a pointer to the client, all members are reached by short loads.
 [[gnu::noinline]] void process_response(CO_CSDO& client, const CO_IF_FRM& response) {
   CO_IF_FRM request = wire::empty_frame(client.TxId);
@@ -244,16 +167,44 @@ bool send_segments(CO_CSDO& client) {
   }
   if (step.done) {
     finish(client, step.result);
-  } else if (state_of(client) == State::block_download) {
-    send_segments(client);
-    start_timeout(client);
-  } else if (!step.silent) {
+    return;
+  }
+  if constexpr (has_block) {
+    if (state_of(client) == State::block_download) {
+      send_segments(client);
+      start_timeout(client);
+      return;
+    }
+  }
+  if (!step.silent) {
     client.Silence = 0;
     start_timeout(client);
   }
 }
 
 }  // namespace
+
+void start_timeout(CO_CSDO& client) {
+  if (client.Ticks == 0) {
+    return;
+  }
+  const uint32_t ticks = receives_block(client) ? (client.Ticks - 1) / quarters + 1 : client.Ticks;
+  clear(client, active);
+  tmr::start(client.Node->Tmr, client.Tmr, ticks, 0, on_time, &client);
+}
+
+void finish(CO_CSDO& client, uint32_t code) {
+  if constexpr (has_own) {
+    if (defer_end_of_own_access(client, code)) {
+      return;
+    }
+  }
+  const uint32_t key = client.Key;
+  tmr::stop(client.Node->Tmr, client.Tmr);
+  set_state(client, State::idle);
+  client.State = CO_CSDO_STATE_IDLE;
+  client.Call(&client, CO_GET_IDX(key), CO_GET_SUB(key), code);
+}
 
 void abort_transfer(CO_CSDO& client, uint32_t code) {
   if (client.TxId != wire::no_frame && event::is_allowed(*client.Node, CO_SDO_ALLOWED)) {
@@ -264,7 +215,7 @@ void abort_transfer(CO_CSDO& client, uint32_t code) {
 
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request) {
   const bool upload = has(client, is_upload);
-  const bool block = USE_SDO_BLOCK != 0 && by_block && client.Size >= CO_CSDO_BLOCK;
+  const bool block = has_block && by_block && client.Size >= CO_CSDO_BLOCK;
   const bool expedited = client.Size <= wire::expedited_bytes;
   client.Flags = upload ? is_upload : 0;
   client.Num = 0;
@@ -324,13 +275,15 @@ void on_mode(CO_NODE& node) {
   }
 }
 
-bool on_free(CO_NODE& node, uint16_t number) {
-  CO_CSDO& client = node.CSdo[number];
-  const bool sent = USE_SDO_BLOCK != 0 && send_segments(client);
-  if (sent) {
-    start_timeout(client);
+bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
+  if constexpr (has_block) {
+    CO_CSDO& client = node.CSdo[number];
+    if (send_segments(client)) {
+      start_timeout(client);
+      return true;
+    }
   }
-  return sent;
+  return false;
 }
 
 }  // namespace co::sdo_client

@@ -28,6 +28,9 @@ enum class State : uint8_t {
   count
 };
 
+inline constexpr bool has_block = USE_CSDO_BLOCK != 0;
+inline constexpr bool has_own = USE_CSDO_OWN != 0;
+
 // CO_CSDO.Flags
 enum Flag : uint8_t {
   is_upload = 0x01,
@@ -69,6 +72,14 @@ inline void clear(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8
 // Reads the configuration again, unless a transfer is in progress.
 void refresh(CO_CSDO& client);
 
+// Starts the time-out for the next response. Time-out 0: the client waits without limit.
+void start_timeout(CO_CSDO& client);
+
+// Ends the transfer and calls its callback. Must be the last action of its caller: the callback may start the next
+// transfer. While type functions of an access to the own dictionary may be running, only stores the abort code: the
+// callback is called after them.
+void finish(CO_CSDO& client, uint32_t code);
+
 // Ends the transfer, and sends an abort to the server if SDO is allowed. Must be the last action: the callback may
 // start the next transfer.
 void abort_transfer(CO_CSDO& client, uint32_t code);
@@ -81,17 +92,32 @@ void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request);
 // Compares a total length with the announced size. Returns an abort code.
 [[nodiscard]] uint32_t check_total(const CO_CSDO& client, uint32_t total);
 
-// Sends the next segment of a block download. Returns false if there is none, or the controller does not accept it.
-[[nodiscard]] bool send_segment(CO_CSDO& client);
+// Block transfer (USE_CSDO_BLOCK) ---------------------------------------------------------------------------------
+
+// In a block upload the timer runs for a quarter of the time-out at a time.
+inline constexpr uint32_t quarters = 4;
+
+// Returns whether the client receives the segments of a block upload.
+[[nodiscard]] inline bool receives_block(const CO_CSDO& client) {
+  return has_block && (state_of(client) == State::block_upload || state_of(client) == State::block_upload_end);
+}
+
+// Block download: sends segments as long as there are any and the controller accepts them. Returns whether any segment
+// was sent.
+bool send_segments(CO_CSDO& client);
 
 // Block upload: returns whether the frame repeats the last segment of the transfer.
 [[nodiscard]] bool is_last_segment_again(const CO_CSDO& client, const CO_IF_FRM& frame);
 
-// Block upload: fills a repeated acknowledge for a server that no longer sends. Returns false if there is nothing to
-// acknowledge.
-[[nodiscard]] bool put_repeated_acknowledge(CO_CSDO& client, CO_IF_FRM& request);
+// Block upload: handles a quarter of the time-out.
+void handle_quarter(CO_CSDO& client);
 
-// Reads or writes the own dictionary. Returns an abort code.
-[[nodiscard]] uint32_t access_own(CO_CSDO& client);
+// Own dictionary (USE_CSDO_OWN) -----------------------------------------------------------------------------------
+
+// Starts the access by a timer, so that the callback never runs before the request function has returned.
+void queue_own_access(CO_CSDO& client);
+
+// Returns whether type functions of the access may be running, and stores the abort code with which it then ends.
+[[nodiscard]] bool defer_end_of_own_access(CO_CSDO& client, uint32_t code);
 
 }  // namespace co::sdo_client
