@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file registers.h
-/// The only two functions by which drivers/can/bxcan, fdcan, flexcan and, for TWAI, sja1000 access registers and message
-/// memory. Each accesses one aligned word of 32 bits. They compile to single loads and stores.
+/// The only two functions by which drivers/can/bxcan, fdcan, flexcan and, for TWAI, sja1000 access registers and
+/// message memory. Each accesses one aligned word of 32 bits. They compile to single loads and stores.
 ///
 /// With LEXICAN_REGISTER_MODEL defined (by a test, for the driver's source and for the test), they call a model of the
 /// controller instead. Addresses are passed as the driver computes them, so the registers need not be memory.
