@@ -8,8 +8,8 @@
 /// complete identifiers they would belong to the invalid node-ID 0. The entries are read at every request.
 ///
 /// If sub 3 is the node-ID of this node, the request reads or writes the own dictionary with the rights of the network,
-/// in one piece of any length; nothing is sent. The COB-IDs have to be valid in this case, too. With USE_CSDO_OWN 0 such a
-/// client is not configured.
+/// in one piece of any length; nothing is sent. The COB-IDs have to be valid in this case, too. With USE_CSDO_OWN 0
+/// such a client is not configured.
 ///
 /// The stack selects the kind of transfer: expedited up to 4 bytes; block transfer from CO_CSDO_BLOCK bytes on
 /// (USE_CSDO_BLOCK), with fallback to a segmented transfer if the server refuses it; otherwise segmented.
