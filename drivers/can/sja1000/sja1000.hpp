@@ -256,8 +256,8 @@ class Driver {
   // Writes the filters. The controller is in reset mode.
   static void write_filters(const Can& can) {
     for (unsigned n = 0; n < 2; ++n) {
-      const unsigned code = can.State.FilterWord[n] << CO_SJA1000_FILTER_ID_SHIFT;
-      const unsigned compared = can.State.FilterMask[n] << CO_SJA1000_FILTER_ID_SHIFT;
+      const unsigned code = unsigned{can.State.FilterWord[n]} << CO_SJA1000_FILTER_ID_SHIFT;
+      const unsigned compared = unsigned{can.State.FilterMask[n]} << CO_SJA1000_FILTER_ID_SHIFT;
       const auto first = static_cast<std::uint8_t>(2 * n);
       write(can, CO_SJA1000_ACR + first, code >> 8);
       write(can, CO_SJA1000_ACR + first + 1, code & 0xFF);
