@@ -107,7 +107,6 @@ TEST_CASE("routes: those of an identifier are called once in the order of owners
   CHECK(co::routes::number_of(first) == 1);
   remove(node, 1, 1);
   add(node, 0x500, 0, 0);
-  add(node, 0x501, 0, 1);
   add(node, 0x601, 1, 1);
   place = co::routes::next(node, place, 0x601, first);
   REQUIRE(co::routes::is_at(node, place, 0x601));
