@@ -11,9 +11,11 @@
 extern "C" {
 #endif
 
+/// \cond internal
 #ifndef USE_ASSERT
 #define USE_ASSERT 0
 #endif
+/// \endcond
 
 /// Called when the state of the stack is wrong: by a defect of the stack, or because another part of the program has
 /// overwritten its memory. \a condition is the text of what should hold at \a file and \a line. The application may

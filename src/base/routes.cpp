@@ -26,6 +26,15 @@ bool is_behind(const CO_ROUTES& routes, unsigned place, uint32_t identifier, uin
   return routes.Id[place] > identifier || (routes.Id[place] == identifier && routes.Owner[place] > owner);
 }
 
+// Returns the position behind the routes of a function code that begin at a position and are in their order.
+[[maybe_unused]] unsigned end_of_class(const CO_ROUTES& routes, unsigned place, unsigned function_code) {
+  while (routes.Id[place] != no_identifier && class_of(routes.Id[place]) == function_code &&
+         (place == 0 || is_behind(routes, place, routes.Id[place - 1], routes.Owner[place - 1]))) {
+    ++place;
+  }
+  return place;
+}
+
 // Returns whether the routes are in their order, end with the mark, and Start has the first route of each function
 // code. For assertions.
 [[maybe_unused]] bool is_sorted(const CO_ROUTES& routes) {
@@ -34,12 +43,7 @@ bool is_behind(const CO_ROUTES& routes, unsigned place, uint32_t identifier, uin
     if (routes.Start[n] != place) {
       return false;
     }
-    while (routes.Id[place] != no_identifier && class_of(routes.Id[place]) == n) {
-      if (place != 0 && !is_behind(routes, place, routes.Id[place - 1], routes.Owner[place - 1])) {
-        return false;
-      }
-      ++place;
-    }
+    place = end_of_class(routes, place, n);
   }
   return routes.Start[end] == place && routes.Id[place] == no_identifier;
 }

@@ -113,7 +113,6 @@ uint32_t synchronise(CO_TMR& t) {
 // tick: usually at the end, which is compared first. Returns whether it is the first armed timer. from: the present
 // clock or, with a classic driver, the time of its next expiry, which no armed timer precedes.
 bool link_by_expiry(CO_TMR& t, CO_TMR_MEM& timer, uint32_t from, uint32_t ticks) {
-  CO_ASSERT(is_sorted(t, from));
   CO_TMR_MEM** link = t.Armed;
   CO_TMR_MEM* next = *link;
   if (next != nullptr && owner_of(t.End).At - from <= ticks) {
@@ -131,6 +130,7 @@ bool link_by_expiry(CO_TMR& t, CO_TMR_MEM& timer, uint32_t from, uint32_t ticks)
   timer.Next = next;
   timer.At = from + ticks;
   *link = &timer;
+  CO_ASSERT(is_sorted(t, from));
   return link == t.Armed;
 }
 

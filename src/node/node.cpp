@@ -249,15 +249,19 @@ void resume_sending(CO_NODE& node) {
   return is_valid;
 }
 
+void report_error_frame(CO_NODE& node, CO_IF_FRM& frame) {
+  if (!port::can_report(node, frame)) {
+    count(node.Count.Unclaimed);
+  }
+}
+
 void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
   if (frame.Identifier > wire::base_ids || frame.DLC > sizeof frame.Data) {
     if (!check_length(node, frame)) {
       return;
     }
     if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
-      if (!port::can_report(node, frame)) {
-        count(node.Count.Unclaimed);
-      }
+      report_error_frame(node, frame);
       return;
     }
     frame.Identifier = wire::normalised(frame.Identifier);

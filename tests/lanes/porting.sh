@@ -50,7 +50,7 @@ links_for_arm() {
 # Checks that paths of this project in `code` exist, and that the page's table has all checks.
 names_what_exists() {
   local name missing=
-  for name in $(grep -oE '`(tests|docs|drivers)/[a-z_/.]+' "$root/docs/porting.md" | tr -d '`' | sort -u); do
+  for name in $(grep -oE '`(tests|docs|drivers)/[a-z0-9_/.]+' "$root/docs/porting.md" | tr -d '`' | sort -u); do
     [ -e "$root/$name" ] || missing+=" $name"
   done
   for name in $(grep -ohE '"(can|timer|nvm)\.[a-z0-9]+"' "$root"/tests/driver_check/*.c | tr -d '"' | sort -u); do

@@ -96,8 +96,20 @@ void read_mailbox(CO_CAN_FLEXCAN& can, unsigned n, Batch& batch) {
   }
 }
 
-// Moves the frames of the message buffers into the queue, in the order of their time stamps. A frame that arrives
-// meanwhile is newer than all of the same pass.
+// Moves the frames of message buffers whose flags are set into the queue, in the order of their time stamps.
+void receive_flagged(CO_CAN_FLEXCAN& can, const Layout& layout, std::uint32_t flags) {
+  Batch batch = {};
+  for (unsigned n = layout.receive; n < layout.transmit; ++n) {
+    if ((flags & (std::uint32_t{1} << n)) != 0) {
+      read_mailbox(can, n, batch);
+    }
+  }
+  for (unsigned n = 0; n < batch.number; ++n) {
+    static_cast<void>(CORingPut(&can.Received, &batch.frame[n]));
+  }
+}
+
+// Empties the message buffers. A frame that arrives meanwhile is newer than all of the same pass.
 void receive_mailboxes(CO_CAN_FLEXCAN& can) {
   const Layout layout = layout_of(can);
   for (unsigned pass = 0; pass < passes; ++pass) {
@@ -105,16 +117,7 @@ void receive_mailboxes(CO_CAN_FLEXCAN& can) {
     if (flags == 0) {
       return;
     }
-    Batch batch;
-    batch.number = 0;
-    for (unsigned n = layout.receive; n < layout.transmit; ++n) {
-      if ((flags & (std::uint32_t{1} << n)) != 0) {
-        read_mailbox(can, n, batch);
-      }
-    }
-    for (unsigned n = 0; n < batch.number; ++n) {
-      static_cast<void>(CORingPut(&can.Received, &batch.frame[n]));
-    }
+    receive_flagged(can, layout, flags);
   }
 }
 

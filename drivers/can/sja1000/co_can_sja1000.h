@@ -58,8 +58,8 @@ extern "C" {
 
 /// Functions that access a register by its CAN address, 0…31.
 typedef struct CO_SJA1000_ACCESS_T {
-  uint8_t (*Read)(void* ctx, uint8_t address);
-  void (*Write)(void* ctx, uint8_t address, uint8_t value);
+  uint8_t (*Read)(void* ctx, uint8_t address);               ///< returns the register
+  void (*Write)(void* ctx, uint8_t address, uint8_t value);  ///< sets the register
 } CO_SJA1000_ACCESS;
 
 /// Registers in memory; context of Sja1000Memory.

@@ -45,6 +45,7 @@ extern "C" {
 /// Likewise for ESP32, whose prescaler allows 50 kbit/s at least.
 #define CO_CAN_TWAI_ESP32_RATE_OF(clock, baud, quanta) \
   { (baud), CO_CAN_SJA1000_TIMING(clock, baud, quanta, CO_SJA1000_BTR0_SJW_SHIFT) }
+/// Likewise for ESP32.
 #define CO_CAN_TWAI_ESP32_RATE_FITS(clock, baud, quanta) CO_CAN_SJA1000_FITS(clock, baud, quanta, 64)
 /// \}
 
