@@ -6,6 +6,7 @@
 #   packages   PACKAGE[=PROBE]... (see cmake/install_packages.sh)
 #   optional   not empty: the lane is skipped, with a reason, where its packages cannot be installed
 #   exclusive  not empty: no other lane runs at the same time
+#   waiting    not empty: the lane mostly waits, so it runs beside two others and before them
 # and defines lane(), which reports each case by the functions below. The runner sets $lane_name, $root, $build and
 # $results; $full is empty in the contributor's run.
 

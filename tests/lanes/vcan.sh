@@ -4,6 +4,7 @@ minutes=10
 packages=("${build_packages[@]}" "${tool_packages[@]}" qemu-system-x86=qemu-system-x86_64 can-utils=candump iproute2=ip busybox-static=busybox
   cpio kmod=modprobe python3 python3-can=/usr/lib/python3/dist-packages/can/interface.py)
 optional=yes
+waiting=yes
 
 lane() {
   local check=$results/driver_check_socketcan
