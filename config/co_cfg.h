@@ -3,7 +3,7 @@
 /// Settings of the stack, with meaning, range and cost; the values below are the defaults. Each value can be defined as
 /// a compiler definition (-D), by a preset (CO_CFG_PRESET names a header of config/presets), or by a co_cfg.h of the
 /// application that is found first. A definition has priority over the preset. Library and application need the same
-/// values: the linker refuses different ones (co_configuration.h).
+/// values: the linker refuses different ones (lexican/detail/configuration.h).
 #ifndef CO_CFG_H_
 #define CO_CFG_H_
 

@@ -16,38 +16,19 @@
 #include "co_cfg.h"
 
 #include "co_domain.h"
-#include "co_integer16.h"
-#include "co_integer32.h"
-#include "co_integer64.h"
-#include "co_integer8.h"
-#include "co_real.h"
+#include "co_number.h"
 #include "co_string.h"
 #include "co_time_of_day.h"
 
-#include "co_emcy_cons.h"
-#include "co_emcy_hist.h"
-#include "co_emcy_id.h"
-#include "co_error_behaviour.h"
-#include "co_hb_cons.h"
-#include "co_hb_prod.h"
-#include "co_nmt_startup.h"
+#include "co_emcy.h"
+#include "co_heartbeat.h"
+#include "co_nmt.h"
 #include "co_para.h"
-#include "co_pdo_dispatch.h"
-#include "co_pdo_event.h"
-#include "co_pdo_id.h"
-#include "co_pdo_inhibit.h"
-#include "co_pdo_map.h"
-#include "co_pdo_num.h"
-#include "co_pdo_scan.h"
-#include "co_pdo_start.h"
-#include "co_pdo_type.h"
-#include "co_sdo_id.h"
-#include "co_sync_count.h"
-#include "co_sync_cycle.h"
-#include "co_sync_id.h"
+#include "co_pdo_types.h"
+#include "co_sdo.h"
+#include "co_sync.h"
 
 #include "co_callbacks.h"
-#include "co_configuration.h"
 #include "co_csdo.h"
 #include "co_dict.h"
 #include "co_emcy.h"
@@ -55,7 +36,6 @@
 #include "co_led.h"
 #include "co_lss.h"
 #include "co_lss_master.h"
-#include "co_needs.h"
 #include "co_nmt.h"
 #include "co_pdo.h"
 #include "co_ring.h"
@@ -63,9 +43,10 @@
 #include "co_ssdo.h"
 #include "co_sync.h"
 #include "co_time.h"
-#include "co_time_clock.h"
-#include "co_time_id.h"
 #include "co_tmr.h"
+#include "lexican/detail/configuration.h"
+#include "lexican/detail/needs.h"
+#include "lexican/detail/routes.h"
 
 #if USE_OD
 #include "co_od.h"
@@ -155,35 +136,6 @@ typedef struct CO_NODE_EXT_T {
 #endif
   const CO_CALLBACKS* Callbacks;  ///< functions that receive the node and User (co_callbacks.h), or null
 } CO_NODE_EXT;
-
-/// \cond internal
-// Routes: NMT, error control, LSS, SDO, heartbeat and EMCY consumers, SYNC and TIME, PDOs.
-#define CO_ROUTE_N                                                                                           \
-  (2 + (USE_LSS ? 1 : 0) + (USE_LSS_MASTER ? 1 : 0) + CO_SSDO_N + (USE_CSDO ? CO_CSDO_N : 0) + CO_HBCONS_N + \
-   CO_EMCY_CONS_N + (USE_SYNC ? 1 : 0) + (USE_TIME ? 1 : 0) + CO_RPDO_N + (USE_PDO_RTR ? CO_TPDO_N : 0))
-#if CO_ROUTE_N > 255
-typedef uint16_t CO_ROUTE_NUM;
-#else
-typedef uint8_t CO_ROUTE_NUM;
-#endif
-
-#define CO_ROUTE_CLASS_N (USE_FAST_PATHS ? 17 : 1)
-
-typedef struct CO_ROUTES_T {  ///< routing table: the service instances that consume each identifier
-  /// Index of the first route of each function code (CAN-ID >> 7) and of the 29-bit identifiers, then the end. With
-  /// USE_FAST_PATHS 0 one class holds all routes.
-  CO_ROUTE_NUM Start[CO_ROUTE_CLASS_N + 1];
-  uint32_t Id[CO_ROUTE_N + 1];  ///< identifiers with flags, ascending, then an end mark that is no identifier
-  uint16_t Owner[CO_ROUTE_N];   ///< service in bits 15…12, number of its instance in bits 11…0
-} CO_ROUTES;
-
-typedef struct CO_TX_QUEUE_T {  ///< transmit queue, ordered by priority
-  CO_IF_FRM* Frame;
-  uint16_t Len;
-  uint16_t Num;
-  uint16_t Fixed;  ///< number of frames at the head that no frame may overtake: up to and including the boot-up message
-} CO_TX_QUEUE;
-/// \endcond
 
 /// A node. The application uses members as handles (&node.Dict, &node.Emcy, &node.Nmt, &node.Tmr, …), reads NodeId and
 /// Baudrate, and must not access any other member. Frequently used members come first, where small CPUs reach them with
@@ -288,8 +240,8 @@ typedef struct CO_NODE_T {
 /// may be destroyed after the call. A null argument calls CONodeFatalError().
 ///
 /// The linker error "undefined reference to CONodeInit_of_a_library_with_the_same_co_cfg_values_…" means that the
-/// library was compiled with another configuration than the program (co_configuration.h): compile both with the same
-/// definitions, preset and co_cfg.h.
+/// library was compiled with another configuration than the program (lexican/detail/configuration.h): compile both with
+/// the same definitions, preset and co_cfg.h.
 void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) CO_CONFIGURED("CONodeInit");
 
 /// Like CONodeInit(), with the settings of \a ext. CONodeInit() is CONodeInitEx() with a null \a ext.

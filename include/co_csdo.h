@@ -30,10 +30,10 @@
 
 #include "co_cfg.h"
 #include "co_err.h"
-#include "co_needs.h"
 #include "co_sdo.h"
 #include "co_tmr.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -101,8 +101,13 @@ CO_CSDO* COCSdoFind(struct CO_NODE_T* node, uint8_t num) CO_NEEDS(USE_CSDO);
 CO_ERR COCSdoRequestUpload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                            uint32_t timeout) CO_NEEDS(USE_CSDO);
 
-/// Starts to write \a size bytes of \a buf to the object \a key of the server. Parameters and results are those of
+/// Starts to write \a size bytes of \a buf to the object \a key of the server. The parameters are those of
 /// COCSdoRequestUpload().
+/// \retval CO_ERR_NONE         the transfer has started; \a callback will be called once. On an error it is not called
+/// \retval CO_ERR_BAD_ARG      \a csdo, \a buf or \a callback is null, or \a size is 0
+/// \retval CO_ERR_SDO_OFF      the client is not configured, or the NMT state does not allow SDO
+/// \retval CO_ERR_SDO_BUSY     a transfer is in progress
+/// \retval CO_ERR_IF_CAN_SEND  the transmit queue is full
 CO_ERR COCSdoRequestDownload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                              uint32_t timeout) CO_NEEDS(USE_CSDO);
 

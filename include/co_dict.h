@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-/// Faults of a dictionary: name, number, meaning. CO_OD_CHECK() (co/dictionary.hpp) rejects all of them at compile
+/// Faults of a dictionary: name, number, meaning. CO_OD_CHECK() (lexican/dictionary.hpp) rejects all of them at compile
 /// time. At run time only a fault that breaks the search or memory safety stops the node (CO_INVALID,
 /// CO_ERR_DICT_INIT). Any other fault affects its entry only: the node runs, its error is CO_ERR_OBJ_INIT, and
 /// CODictGetFault() returns the entry. With USE_DICT_CHECK 0 nothing is checked at run time. CO_DICT_DIRECT_ADDRESS,
@@ -146,12 +146,18 @@ CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val);   ///< writes 32 
 /// \}
 
 /// Finds a stream or value and reads \a len bytes of it from its beginning into \a buf. A value is in the byte order of
-/// the CPU. A stream that is shorter than \a len leaves the rest of \a buf unchanged. Returns the errors of
-/// CODictRdByte(), with CO_ERR_BAD_ARG instead of CO_ERR_OBJ_SIZE for a value of another length.
+/// the CPU. A stream that is shorter than \a len leaves the rest of \a buf unchanged. Returns the result of the type
+/// function, or:
+/// \retval CO_ERR_BAD_ARG        an argument is null, or a value has another length
+/// \retval CO_ERR_OBJ_NOT_FOUND  there is no such entry
+/// \retval CO_ERR_OBJ_ACC        the type has no Read function
 CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 
-/// Finds a stream or value and writes \a len bytes from \a buf to it, from its beginning. Returns the errors of
-/// CODictRdBuffer().
+/// Finds a stream or value and writes \a len bytes from \a buf to it, from its beginning. Returns the result of the type
+/// function, or:
+/// \retval CO_ERR_BAD_ARG        an argument is null, or a value has another length
+/// \retval CO_ERR_OBJ_NOT_FOUND  there is no such entry
+/// \retval CO_ERR_OBJ_ACC        the type has no Write function
 CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 
 /// Makes \a root the table of the dictionary. The table has \a max entries, or ends at the first entry with key 0; an
@@ -165,12 +171,17 @@ CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 ///                  returns; lookups then find no entry
 int16_t CODictInit(CO_DICT* cod, struct CO_NODE_T* node, CO_OBJ* root, uint16_t max);
 
-/// Calls the Init function of every entry, in the order of the table. Returns the last error, or CO_ERR_NONE.
+/// Calls the Init function of every entry, in the order of the table.
+/// \retval CO_ERR_NONE     all Init functions succeeded
+/// \retval CO_ERR_BAD_ARG  an argument is null
+/// \retval other           last error of an Init function
 CO_ERR CODictObjInit(CO_DICT* cod, struct CO_NODE_T* node);
 
 /// Returns the first fault that CODictInit() or the Init function of a basic type has found; a fault that stops the
 /// node has precedence. \a key (may be null) receives the key of the entry. May also be called after CONodeInit() has
-/// failed with CO_ERR_DICT_INIT. With USE_DICT_CHECK 0 it returns CO_DICT_OK.
+/// failed with CO_ERR_DICT_INIT.
+/// \retval CO_DICT_OK  no fault, or USE_DICT_CHECK is 0
+/// \retval other       see CO_DICT_FAULT_LIST
 CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key);
 
 /// Returns the name of a fault, for messages: "CO_DICT_NO_TYPE"; "unknown fault" for other numbers. Never null. The

@@ -34,9 +34,10 @@
 #define CO_EMCY_H_
 
 #include "co_cfg.h"
-#include "co_needs.h"
+#include "co_obj.h"
 #include "co_tmr.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -190,6 +191,44 @@ void COEmcyHistReset(CO_EMCY* emcy) CO_NEEDS(USE_EMCY);
 /// EMCY. \a code: error code (0: an error is resolved), \a reg: error register of that node, \a msef:
 /// manufacturer-specific bytes.
 void COEmcyReceived(struct CO_NODE_T* node, uint8_t nodeId, uint16_t code, uint8_t reg, const uint8_t msef[5]);
+/// \}
+
+/// \name 1014h, COB-ID EMCY
+/// [CiA 301, 7.5.2.17] Data: a uint32_t, or the value itself (flag D); with flag N the CAN-ID is relative to the node-
+/// ID, the flags of the COB-ID are not. Bit 31 set: no EMCY is sent. Bit 29 set: 29-bit CAN-ID. While bit 31 is 0 the
+/// other bits cannot be changed, unless the same write sets bit 31. Always refused are restricted CAN-IDs, bit 30, and
+/// a CAN-ID that does not fit the frame format (0609 0030h). A write takes effect at once; queued messages are
+/// discarded when bit 31 is set, and counted as dropped.
+/// \{
+
+extern const CO_OBJ_TYPE COTEmcyId CO_NEEDS(USE_EMCY);  ///< functions of CO_TEMCY_ID
+
+#define CO_TEMCY_ID ((const CO_OBJ_TYPE*)&COTEmcyId)  ///< type of 1014h
+/// \}
+
+/// \name 1003h, pre-defined error field
+/// [CiA 301, 7.5.2.4] Sub-index 0: number of errors in the history, Data: a uint8_t, which is not used, or flag D.
+/// Writing 0 empties the history; other values are refused (0609 0030h). Sub-indices 1…254 without a gap: the errors, 1
+/// is the newest; code in bits 15…0, manufacturer-specific information in bits 31…16. Data: a uint32_t each, not flag
+/// D. The variables form a ring: read them through the dictionary. Reading an unused entry returns CO_ERR_TYPE_RD; an
+/// SDO client gets 0800 0024h. The errors cannot be written (0601 0002h).
+/// \{
+
+extern const CO_OBJ_TYPE COTEmcyHist CO_NEEDS(USE_EMCY);  ///< functions of CO_TEMCY_HIST
+
+#define CO_TEMCY_HIST ((const CO_OBJ_TYPE*)&COTEmcyHist)  ///< type of 1003h, all sub-indices
+/// \}
+
+/// \name 1028h, emergency consumer object, sub 1…127
+/// The COB-ID of the EMCY messages of the node with that node-ID; up to CO_EMCY_CONS_N. [CiA 301, 7.5.2.30] Sub 0 is a
+/// plain CO_TUNSIGNED8. Data: a uint32_t, or the value itself (flag D). Bit 31 set: messages of the node are ignored.
+/// While bit 31 is 0 the other bits cannot be changed, unless the same write sets bit 31. Restricted CAN-IDs, and those
+/// that do not fit the frame format, are refused (0609 0030h). A write takes effect at once.
+/// \{
+
+extern const CO_OBJ_TYPE COTEmcyCons CO_NEEDS(CO_EMCY_CONS_N);  ///< functions of CO_TEMCY_CONS
+
+#define CO_TEMCY_CONS ((const CO_OBJ_TYPE*)&COTEmcyCons)  ///< type of 1028h, sub 1…127
 /// \}
 
 #ifdef __cplusplus

@@ -10,10 +10,10 @@
 #ifndef CO_LED_H_
 #define CO_LED_H_
 
-#include "co_needs.h"
 #include "co_nmt.h"
 #include "co_tmr.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
 extern "C" {

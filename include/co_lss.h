@@ -24,9 +24,9 @@
 #define CO_LSS_H_
 
 #include "co_err.h"
-#include "co_needs.h"
 #include "co_tmr.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -74,8 +74,10 @@ typedef struct CO_LSS_T {
 /// Loads the stored node-ID and bit rate. Called in CONodeInit(), after the Init functions of the drivers, and at NMT
 /// reset node (the bit rate is then ignored). \a baud (bit/s) and \a nodeId (1…127, CO_LSS_NO_NODE_ID) hold the values
 /// of CO_NODE_SPEC or CONmtSetNodeId(): leave unchanged what was not stored. Values that an LSS master has configured
-/// but not stored are lost at reset node. [CiA 305] On an error, or if \a nodeId is none of these values, the node's
-/// error is CO_ERR_LSS_LOAD, and nothing is loaded. The default leaves both unchanged.
+/// but not stored are lost at reset node. [CiA 305] The default leaves both unchanged.
+/// \retval CO_ERR_NONE  both are loaded or unchanged; if \a nodeId is none of these values, nothing is loaded and the
+///                      node's error is CO_ERR_LSS_LOAD
+/// \retval other        nothing is loaded; the node's error is CO_ERR_LSS_LOAD
 CO_ERR COLssLoad(uint32_t* baud, uint8_t* nodeId);
 
 /// Stores \a baud (bit/s) and \a nodeId (1…127, CO_LSS_NO_NODE_ID). Called for the LSS service store. The default

@@ -43,9 +43,9 @@
 #define CO_LSS_MASTER_H_
 
 #include "co_err.h"
-#include "co_needs.h"
 #include "co_tmr.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
 extern "C" {

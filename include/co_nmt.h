@@ -18,8 +18,9 @@
 #include "co_cfg.h"
 #include "co_err.h"
 #include "co_if.h"
-#include "co_needs.h"
+#include "co_obj.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -67,7 +68,7 @@ typedef struct CO_NMT_T {
 } CO_NMT;
 
 /// Resets the node like the NMT command: ends transfers, stops the timers of the stack, and initialises everything as
-/// CONodeInit() does. Then sends the boot-up message and enters Pre-operational (or Operational, see co_nmt_startup.h),
+/// CONodeInit() does. Then sends the boot-up message and enters Pre-operational (or Operational, see co_nmt.h),
 /// except in CO_INIT, where the node waits for CONodeStart(). Timers of the application continue. Has no effect if \a
 /// type is neither CO_RESET_NODE nor CO_RESET_COM, or if the node is in CO_INVALID. With a real-time thread
 /// (CO_NODE_EXT.Mainline) the reset is deferred to the next CONodeProcess().
@@ -97,7 +98,7 @@ CO_MODE CONmtModeDecode(uint8_t code);
 uint8_t CONmtModeEncode(CO_MODE mode);
 
 /// Returns the number of missed heartbeats of node \a nodeId since the last call: one for each period, at most 255.
-/// \retval -1  the node is not monitored (1016h, co_hb_cons.h), or \a nmt is null (after CONodeFatalError())
+/// \retval -1  the node is not monitored (1016h, co_heartbeat.h), or \a nmt is null (after CONodeFatalError())
 int16_t CONmtGetHbEvents(CO_NMT* nmt, uint8_t nodeId) CO_NEEDS(CO_HBCONS_N);
 
 /// Returns the NMT state of node \a nodeId in its last heartbeat.
@@ -132,7 +133,7 @@ CO_ERR CONmtCommand(CO_NMT* nmt, CO_NMT_COMMAND command, uint8_t nodeId) CO_NEED
 void CONmtModeChange(CO_NMT* nmt, CO_MODE mode);
 
 /// Called after a reset by a command of the NMT master, when the node is in Pre-operational (or Operational, see
-/// co_nmt_startup.h) again.
+/// co_nmt.h) again.
 void CONmtResetRequest(CO_NMT* nmt, CO_NMT_RESET reset);
 
 /// Called when the monitored node \a nodeId has sent no heartbeat within its time (1016h), and again after each further
@@ -145,6 +146,39 @@ void CONmtHbConsChange(CO_NMT* nmt, uint8_t nodeId, CO_MODE mode);
 
 /// Called by life guarding when the NMT master is missing (\a occurred true), or is back (false).
 void CONmtLifeGuardEvent(CO_NMT* nmt, bool occurred);
+/// \}
+
+/// \name 1F80h, NMT startup
+/// [CiA 302-2] Data: a uint32_t, or the value itself (flag D). Bit 2 = 0: self-start: after CONodeStart() and after
+/// every reset the node enters Operational, once, as soon as it is in Pre-operational. Bit 2 = 1, or no such object: it
+/// stays in Pre-operational. A mode that CONmtModeChange() requests has priority. The other bits configure how an NMT
+/// master boots a network (bit 0: this node is the master; bits 1 and 3…6: how it starts the other nodes and reacts to
+/// missing ones). This is implemented by the application, with CONmtCommand(): the node ignores these bits and refuses
+/// to change them (CO_ERR_OBJ_RANGE, 0609 0030h).
+/// \{
+
+#define CO_NMT_STARTUP_STAY 0x04u  ///< bit 2: no self-start
+
+extern const CO_OBJ_TYPE COTNmtStartup;  ///< functions of CO_TNMT_STARTUP
+
+#define CO_TNMT_STARTUP ((const CO_OBJ_TYPE*)&COTNmtStartup)  ///< type of 1F80h
+/// \}
+
+/// \name 1029h, error behaviour
+/// [CiA 301, 7.5.2.32] Data: a uint8_t, or the value itself (flag D). Sub 1 is the reaction to the loss of the network:
+/// bus-off, a missing heartbeat of a monitored node, or a missing NMT master (life guarding). 0, or without the object:
+/// a node in Operational enters Pre-operational; 1: none; 2: the node enters Stopped, also from Pre-operational. The
+/// reaction occurs once for each loss. Other sub-indices are evaluated by the application only. All other values are
+/// refused (0609 0030h).
+/// \{
+
+#define CO_ERROR_BEHAVIOUR_PREOP 0u  ///< from Operational to Pre-operational
+#define CO_ERROR_BEHAVIOUR_NONE 1u   ///< no change of the NMT state
+#define CO_ERROR_BEHAVIOUR_STOP 2u   ///< from Operational or Pre-operational to Stopped
+
+extern const CO_OBJ_TYPE COTErrorBehaviour;  ///< functions of CO_TERROR_BEHAVIOUR
+
+#define CO_TERROR_BEHAVIOUR ((const CO_OBJ_TYPE*)&COTErrorBehaviour)  ///< type of 1029h
 /// \}
 
 #ifdef __cplusplus

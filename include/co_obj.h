@@ -9,11 +9,11 @@
 #define CO_OBJ_H_
 
 #include "co_err.h"
-#include "co_needs.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #if defined(__cplusplus) && !defined(CO_DATA_INTEGER)
-#include "co/data.hpp"
+#include "lexican/data.hpp"
 #endif
 
 #ifdef __cplusplus
@@ -178,14 +178,16 @@ typedef struct CO_OBJ_TYPE_EX_T {
 } CO_OBJ_TYPE_EX;
 
 /// Calls the Reset function of the CO_OBJ_TYPE_EX whose first member is \a obj->Type. The stack recognises a
-/// CO_OBJ_TYPE_EX by this function.
+/// CO_OBJ_TYPE_EX by this function. Returns the result of that function, or:
+/// \retval CO_ERR_NONE     also if the type has no such function
+/// \retval CO_ERR_BAD_ARG  an argument is null
 CO_ERR COObjTypeExReset(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t para) CO_NEEDS(USE_OBJ_EX);
 /// \}
 
 #if !defined(__cplusplus) || defined(CO_DATA_INTEGER)
 /// Address of the object's data, or the value itself (flag D). In C++ it is a class of the same size and layout
-/// (co/data.hpp) that converts to and from addresses and integers, so that tables can be checked at compile time. With
-/// CO_DATA_INTEGER defined it is the plain integer in C++, too, without that check.
+/// (lexican/data.hpp) that converts to and from addresses and integers, so that tables can be checked at compile time.
+/// With CO_DATA_INTEGER defined it is the plain integer in C++, too, without that check.
 typedef uintptr_t CO_DATA;
 #endif
 
@@ -222,18 +224,26 @@ CO_ERR COObjRdValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t wi
 /// \retval CO_ERR_OBJ_ACC  the type has no Write function
 CO_ERR COObjWrValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t width);
 
-/// Reads a stream from its beginning: calls Reset(0), then reads \a size bytes into \a buffer. Returns the errors of
-/// COObjRdValue() and of the type's Reset function.
+/// Reads a stream from its beginning: calls Reset(0), then reads \a size bytes into \a buffer. Returns the result of the
+/// type's functions, or:
+/// \retval CO_ERR_BAD_ARG  an argument is null, or a value has another length
+/// \retval CO_ERR_OBJ_ACC  the type has no Read function
 CO_ERR COObjRdBufStart(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
-/// Reads the next \a size bytes of a stream. Returns the errors of COObjRdValue().
+/// Reads the next \a size bytes of a stream. Returns the result of the type's Read function, or:
+/// \retval CO_ERR_BAD_ARG  an argument is null, or a value has another length
+/// \retval CO_ERR_OBJ_ACC  the type has no Read function
 CO_ERR COObjRdBufCont(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
-/// Writes a stream from its beginning: calls Reset(0), then writes \a size bytes from \a buffer. Returns the errors of
-/// COObjWrValue() and of the type's Reset function.
+/// Writes a stream from its beginning: calls Reset(0), then writes \a size bytes from \a buffer. Returns the result of
+/// the type's functions, or:
+/// \retval CO_ERR_BAD_ARG  an argument is null, or a value has another length
+/// \retval CO_ERR_OBJ_ACC  the type has no Write function
 CO_ERR COObjWrBufStart(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
-/// Writes the next \a size bytes of a stream. Returns the errors of COObjWrValue().
+/// Writes the next \a size bytes of a stream. Returns the result of the type's Write function, or:
+/// \retval CO_ERR_BAD_ARG  an argument is null, or a value has another length
+/// \retval CO_ERR_OBJ_ACC  the type has no Write function
 CO_ERR COObjWrBufCont(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
 /// Sets the abort code \a abort for the SDO transfer of \a obj that is being processed; 0 clears it. To be called by a

@@ -29,17 +29,13 @@
 
 #include "co_cfg.h"
 #include "co_domain.h"
-#include "co_integer16.h"
-#include "co_integer32.h"
-#include "co_integer64.h"
-#include "co_integer8.h"
-#include "co_needs.h"
+#include "co_number.h"
 #include "co_obj.h"
 #include "co_para.h"
-#include "co_real.h"
 #include "co_string.h"
 #include "co_time_of_day.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -444,14 +440,19 @@ uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(O
 const char* OD_getStorageName(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 
 /// Stores the group, like "save" of the network. If 1010h has more than one sub-index, group 1 stands for all groups.
-/// \retval ODR_OK              the group is stored; OD_restoreGroup(): it is marked to be restored
+/// \retval ODR_OK              the group is stored
 /// \retval ODR_SUB_NOT_EXIST   there is no such group
 /// \retval ODR_HW              the memory does not hold the values; the old ones stay
 /// \retval ODR_DATA_TRANSF     the group is not stored on command
 /// \retval ODR_OD_MISSING      the node does not use this dictionary
 ODR_t OD_storeGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
-/// Restores the default values of the group at the reset of its type, like "load" of the network. Group 1 and results
-/// are those of OD_storeGroup().
+/// Restores the default values of the group at the reset of its type, like "load" of the network. Group 1 is that of
+/// OD_storeGroup().
+/// \retval ODR_OK              the group will be restored
+/// \retval ODR_SUB_NOT_EXIST   there is no such group
+/// \retval ODR_HW              the memory could not be changed
+/// \retval ODR_DATA_TRANSF     the group is not restored on command
+/// \retval ODR_OD_MISSING      the node does not use this dictionary
 ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 /// \}
 

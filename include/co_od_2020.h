@@ -67,8 +67,11 @@ static inline OD_size_t OD_write2020(OD_stream2020_t* stream, uint8_t subIndex, 
 }
 
 #if USE_OD
-/// Fills \a subEntry and \a stream for access to a variable. Returns the results of OD_getSub(); ODR_DEV_INCOMPAT if
-/// one of them is null.
+/// Fills \a subEntry and \a stream for access to a variable, like OD_getSub().
+/// \retval ODR_OK             both are filled
+/// \retval ODR_IDX_NOT_EXIST  \a entry is null or empty
+/// \retval ODR_SUB_NOT_EXIST  there is no such sub-index
+/// \retval ODR_DEV_INCOMPAT   \a subEntry or \a stream is null
 static inline ODR_t OD_getSub2020(const OD_entry_t* entry, uint8_t subIndex, OD_subEntry_t* subEntry,
                                   OD_stream2020_t* stream, bool_t odOrig) {
   const OD_subEntry_t none = {0, 0, 0, 0, 0, OD_read2020, OD_write2020};

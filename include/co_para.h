@@ -41,17 +41,17 @@
 #ifndef CO_PARA_H_
 #define CO_PARA_H_
 
-#include "co_needs.h"
 #include "co_nmt.h"
 #include "co_obj.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
-/// Memory of a parameter group. In C++ it is a class of the same size and layout (co/address.hpp) that can be
+/// Memory of a parameter group. In C++ it is a class of the same size and layout (lexican/address.hpp) that can be
 /// initialised with the address of any object and is used like a uint8_t *; define CO_DATA_INTEGER to get the plain
 /// pointer there, too. In C write (uint8_t *)&structure: compilers warn about, or refuse, the address of a structure
 /// without the cast.
 #if defined(__cplusplus) && !defined(CO_DATA_INTEGER)
-#include "co/address.hpp"
+#include "lexican/address.hpp"
 typedef co::Address CO_PARA_MEM;
 #else
 typedef uint8_t* CO_PARA_MEM;
@@ -125,7 +125,13 @@ extern const CO_OBJ_TYPE COTVerifyConfig CO_NEEDS(USE_PARA);
 /// \retval CO_ERR_BAD_ARG       an argument is null
 CO_ERR COParaStore(const CO_PARA* pg, struct CO_NODE_T* node) CO_NEEDS(USE_PARA);
 
-/// Restores the default values of the group at the reset of its Type. Returns the errors of COParaStore().
+/// Restores the default values of the group at the reset of its Type.
+/// \retval CO_ERR_NONE          the values will be restored, or the group is ignored
+/// \retval CO_ERR_PARA_STORE    Offset and Size do not fit the memory
+/// \retval CO_ERR_PARA_OVERLAP  the group overlaps one with a lower sub-index of 1010h
+/// \retval CO_ERR_IF_NVM_WRITE  the memory could not be changed; the stored values stay
+/// \retval CO_ERR_OBJ_STATE     in COLssStore(), which the LSS master has caused: the budget of stores is used up
+/// \retval CO_ERR_BAD_ARG       an argument is null
 CO_ERR COParaRestore(const CO_PARA* pg, struct CO_NODE_T* node) CO_NEEDS(USE_PARA);
 
 /// Loads all groups of 1010h with this \a type, then executes a reset that a callback has requested meanwhile. An

@@ -20,10 +20,10 @@
 ///   - FFh, destination addressing: the frame names an object of the consumer, or of all consumers. It is sent by
 ///     COTPdoSendTo(), and written to objects that an RPDO could map (flags P and W). If there is no such object, EMCY
 ///     8230h is sent, once until an object is written again. Frames for other nodes are ignored.
-///   - FEh, source addressing: the frame names an object of the producer. The object scanner list (co_pdo_scan.h)
+///   - FEh, source addressing: the frame names an object of the producer. The object scanner list (co_pdo_types.h)
 ///     contains the objects of the one TPDO of this kind. COTPdoTrigObj() or flag A sends one of them; a request, the
 ///     event timer or the start (CO_TPDO_ON_START) sends all of them in the order of the list, an inhibit time apart,
-///     each with its value at the time of transmission. The object dispatching list (co_pdo_dispatch.h) contains the
+///     each with its value at the time of transmission. The object dispatching list (co_pdo_types.h) contains the
 ///     objects that RPDOs of this kind write; other objects are ignored.
 /// COPdoTransmit(), COPdoReceive() and COPdoUpdate() are called for each frame. CORPdoObjWasReceived() reports the
 /// object that a multiplex PDO has written last.
@@ -39,10 +39,10 @@
 #include "co_cfg.h"
 #include "co_err.h"
 #include "co_if.h"
-#include "co_needs.h"
 #include "co_obj.h"
 #include "co_tmr.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
 extern "C" {

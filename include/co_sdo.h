@@ -5,7 +5,9 @@
 #define CO_SDO_H_
 
 #include "co_cfg.h"
+#include "co_obj.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 /// \name SDO abort codes
 /// \{
@@ -65,5 +67,25 @@
 /// Default COB-ID of responses of the first server (1200h sub 2), to be used with flag N.
 #define CO_COBID_SDO_RESPONSE() 0x580u
 /// \}
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// \name 1200h…12FFh sub 1 and 2, COB-IDs of SDO servers and clients
+/// [CiA 301, 7.5.2.33-34] Data: a uint32_t, or the value itself (flag D); flag N: the CAN-ID is relative to the node-
+/// ID. A change is possible only from or to "not valid" (bit 31); other changes are refused with CO_ERR_OBJ_RANGE, and
+/// so are CAN-IDs that CiA 301 reserves (a client may use those of the default SDO of other nodes). A change takes
+/// effect after the response of the transfer that made it.
+/// \{
+
+extern const CO_OBJ_TYPE COTSdoId;  ///< functions of CO_TSDO_ID
+
+#define CO_TSDO_ID ((const CO_OBJ_TYPE*)&COTSdoId)  ///< type of 1200h…12FFh, sub 1 and 2
+/// \}
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_time.h
-/// TIME consumer and producer, and a running clock (USE_TIME). [CiA 301, 7.2.6] Configured by 1012h (co_time_id.h).
+/// TIME consumer and producer, and a running clock (USE_TIME). [CiA 301, 7.2.6] Configured by 1012h.
 ///
-/// The clock is stopped at 0 until it is set by COTimeSet(), by a TIME message or through an object (co_time_clock.h).
+/// The clock is stopped at 0 until it is set by COTimeSet(), by a TIME message or through an object (CO_TTIME_CLOCK).
 /// It then counts the ticks of the timer driver and does not drift against them, at any timer frequency (1 Hz to 429
 /// MHz); a timer of the stack advances it once a second. It continues through NMT resets and in all NMT states and ends
 /// with CONodeStop(). The loop may be late by up to 2^32 ticks less one second. After 65535 days (2163) it starts again
@@ -16,10 +16,11 @@
 #define CO_TIME_H_
 
 #include "co_err.h"
-#include "co_needs.h"
+#include "co_obj.h"
 #include "co_time_of_day.h"
 #include "co_tmr.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -87,6 +88,30 @@ CO_ERR COTimeProduce(struct CO_NODE_T* node, uint32_t ms) CO_NEEDS(USE_TIME);
 
 /// Called after a TIME message has set the clock to \a time.
 void COTimeUpdate(struct CO_NODE_T* node, const CO_TIME_OF_DAY* time);
+/// \}
+
+/// \name 1012h, COB-ID TIME
+/// [CiA 301, 7.5.2.15] Data: a uint32_t, or the value itself (flag D). Bit 31: the node consumes
+/// TIME, bit 30: it produces TIME, bit 29: 29-bit CAN-ID. While bit 31 or 30 is set, bits 0 to 29 cannot be changed;
+/// restricted CAN-IDs are refused (0609 0030h). A write takes effect at once; with a plain CO_TUNSIGNED32 instead, at
+/// the next reset.
+/// \{
+
+extern const CO_OBJ_TYPE COTTimeId CO_NEEDS(USE_TIME);  ///< functions of CO_TTIME_ID
+
+#define CO_TTIME_ID ((const CO_OBJ_TYPE*)&COTTimeId)  ///< type of 1012h
+/// \}
+
+/// \name The node's clock as an object
+/// Its data type is TIME_OF_DAY: reading returns the time, 0 until it was set; writing sets
+/// it. A time of 24 h or more is refused (0609 0030h). 6 bytes, which may be mapped into PDOs. Data: 0, not used.
+///
+///     {CO_KEY(0x2101, 0, CO_OBJ____PRW), CO_TTIME_CLOCK, 0}
+/// \{
+
+extern const CO_OBJ_TYPE COTTimeClock CO_NEEDS(USE_TIME);  ///< functions of CO_TTIME_CLOCK
+
+#define CO_TTIME_CLOCK ((const CO_OBJ_TYPE*)&COTTimeClock)  ///< type of the clock; Data: 0
 /// \}
 
 #ifdef __cplusplus

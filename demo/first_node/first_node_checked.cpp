@@ -2,11 +2,11 @@
 // first_node.c in C++: the compiler checks the dictionary, and values of objects have types.
 #include <cstdio>
 
-#include "co/dictionary.hpp"
-#include "co/object.hpp"
 #include "co_can_virtual.h"
 #include "co_core.h"
 #include "co_virtual_clock.h"
+#include "lexican/dictionary.hpp"
+#include "lexican/object.hpp"
 
 static std::uint8_t error_register, hour = 12;
 static std::uint16_t heartbeat_time = 500;  // ms

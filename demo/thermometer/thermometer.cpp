@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "thermometer/thermometer.hpp"
 
-#include "co/dictionary.hpp"
-#include "co/object.hpp"
+#include "lexican/dictionary.hpp"
+#include "lexican/object.hpp"
 
 namespace demo {
 namespace {

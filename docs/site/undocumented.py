@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """undocumented.py XML
 
-Prints the headers and public symbols without comment in the directory XML, which Doxygen has written with EXTRACT_ALL.
+Prints the headers and public symbols without comment, and the C functions that return an error code without a list of
+\\retval (of the function, its group or its header), in the directory XML, which Doxygen has written with EXTRACT_ALL.
 (Doxygen itself does not report enumerators, nor symbols inside of a class or file without comment.) Exits with 1 if
 there are any.
 """
@@ -11,6 +12,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 COMPOUNDS = ("file", "class", "struct", "union")
+ERROR_CODES = ("CO_ERR", "ODR_t")
 
 
 def has_comment(element):
@@ -21,6 +23,22 @@ def needs_comment(member):
     anonymous = (member.findtext("name") or "").startswith("@")
     deleted = (member.findtext("argsstring") or "").endswith("=delete")
     return member.get("prot") == "public" and member.get("kind") != "friend" and not anonymous and not deleted
+
+
+def has_results(*elements):
+    return any(element.find(".//parameterlist[@kind='retval']") is not None for element in elements)
+
+
+def without_results(compound):
+    """The functions of a C header that return an error code and have no list of results."""
+    if compound.get("kind") != "file" or not compound.findtext("compoundname").endswith(".h"):
+        return
+    for section in compound.iterfind("sectiondef"):
+        for member in section.iterfind("memberdef[@kind='function']"):
+            returned = "".join(member.find("type").itertext()).split()
+            comments = (member, *section.iterfind("description"), compound.find("detaileddescription"))
+            if returned and returned[-1] in ERROR_CODES and not has_results(*comments):
+                yield member
 
 
 def undocumented(compound):
@@ -43,6 +61,10 @@ def main():
                 place = parent.find("location")
                 name = element.findtext("compoundname") or element.findtext("name")
                 found.add((place.get("file"), int(place.get("line") or 1), f"error: {name} has no comment"))
+            for member in without_results(compound):
+                place = member.find("location")
+                name = member.findtext("name")
+                found.add((place.get("file"), int(place.get("line")), f"error: {name} has no list of \\retval"))
     for file, line, fault in sorted(found):
         print(f"{file}:{line}: {fault}", file=sys.stderr)
     sys.exit(1 if found else 0)

@@ -2,8 +2,8 @@
 // Object dictionary: lookup in the sorted table of entries, its checks, and access to single values.
 #pragma once
 
-#include "co/rules.hpp"
 #include "co_dict.h"
+#include "lexican/rules.hpp"
 
 namespace co::dict {
 

@@ -518,8 +518,8 @@ CO_NODE_COUNTERS CONodeGetCounters(const CO_NODE* node) { return node == nullptr
 
 void* CONodeGetUser(const CO_NODE* node) { return node == nullptr || node->Ext == nullptr ? nullptr : node->Ext->User; }
 
-// The symbols of both functions contain this library's configuration (co_configuration.h); programs that declare them
-// without co_core.h link these aliases.
+// The symbols of both functions contain this library's configuration (lexican/detail/configuration.h); programs that
+// declare them without co_core.h link these aliases.
 #ifdef CO_CONFIGURED_SYMBOL
 void node_init_plain(CO_NODE*, const CO_NODE_SPEC*) __asm__("CONodeInit")
     __attribute__((alias(CO_CONFIGURED_SYMBOL("CONodeInit"))));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Uses CONodeInit() and CONodeInitEx() in a program with the library's configuration: by calls, by a second
-// declaration, by their addresses, and by the symbols to which objects without co_configuration.h refer.
+// declaration, by their addresses, and by the symbols to which objects without lexican/detail/configuration.h refer.
 #include <string.h>
 
 #include "co_core.h"

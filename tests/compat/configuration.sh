@@ -49,7 +49,7 @@ settings_in() { sed -nE 's/^#ifndef ((CO|USE)_[A-Z0-9_]+)$/\1/p' "$1" | grep -vE
 
 # number_with DEFINITION...: prints the configuration's number; nothing if the configuration is invalid
 number_with() {
-  printf '#include "co_configuration.h"\nnumber CO_CONFIGURED_SYMBOL("of")\n' |
+  printf '#include "lexican/detail/configuration.h"\nnumber CO_CONFIGURED_SYMBOL("of")\n' |
     "$@" "${includes[@]}" -E -P - 2>/dev/null | sed -n 's/^number //p' | tr -d '" '
 }
 

@@ -4,8 +4,8 @@ extern "C" {
 #include "co_core.h"
 }
 
-#include "co/dictionary.hpp"
 #include "fakes.h"
+#include "lexican/dictionary.hpp"
 #include "unity.h"
 
 namespace {

@@ -13,7 +13,7 @@ static const CO_OBJ_TYPE* const Before = CO_TUNSIGNED32;
 #define OD_ALL
 #include "co_core.h"
 #include "co_domain.h"
-#include "co_integer32.h"
+#include "co_number.h"
 #include "co_od.h"
 #include "co_string.h"
 

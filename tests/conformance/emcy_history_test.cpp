@@ -2,7 +2,7 @@
 // 1003h, pre-defined error field. [301:7.5.2.4]
 #include <type_traits>
 
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 #include "support/emcy_fixture.hpp"
 
 #if USE_EMCY

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1016h, consumer heartbeat time: valid values, and effects of a change on a monitored node.
 // [301:7.5.2.19]
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 #include "support/monitor.hpp"
 
 #if CO_HBCONS_N > 0

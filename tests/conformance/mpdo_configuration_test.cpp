@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration of multiplex PDOs: FEh and FFh in sub-index 0 of the mapping [301:7.5.2.36, 7.5.2.38], the object
 // scanner list [301:7.5.2.39] and the object dispatching list [301:7.5.2.40].
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 #include "support/mpdo_fixture.hpp"
 
 #if USE_MPDO && CO_RPDO_N > 0 && CO_TPDO_N > 0

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // PDOs with constant parameters in the dictionary, which are checked at start like writes of the network. A wrong
 // parameter makes only its PDO invalid. [301:7.5.2.35-38]
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 #include "support/pdo_fixture.hpp"
 
 namespace {

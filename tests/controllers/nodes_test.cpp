@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "bench.hpp"
-#include "co/dictionary.hpp"
 #include "co_core.h"
+#include "lexican/dictionary.hpp"
 #include "support/notation.hpp"
 #include "virtual_clock.hpp"
 

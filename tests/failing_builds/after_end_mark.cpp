@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_NOT_ASCENDING, co::Index<'2', '0', '0', '0'>, co::Sub<'0', '0'>
 // An entry after the end mark would never be found.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint32_t number;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect to compile
 // The same constructs as in the other sources of this directory, without a mistake.
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 void function();
 std::uint8_t byte;

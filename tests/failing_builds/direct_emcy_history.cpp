@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_DIRECT_TYPE, co::Index<'1', '0', '0', '3'>, co::Sub<'0', '1'>
 // The node writes the entries of 1003h; this table is in read-only memory.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint8_t number;
 

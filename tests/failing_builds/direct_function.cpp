@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_DIRECT_ADDRESS, co::Index<'2', '0', '0', '0'>, co::Sub<'0', '0'>
 // Flag D, but the address of a function.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 void function();
 

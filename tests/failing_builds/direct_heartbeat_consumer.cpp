@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_DIRECT_TYPE, co::Index<'1', '0', '1', '6'>, co::Sub<'0', '1'>
 // An entry of 1016h is a CO_HBCONS, which does not fit into the table.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},

@@ -3,7 +3,7 @@
 // Mappings without an object that lacks flag P: entries above sub 0, entries of multiplex PDOs, empty ones, static data
 // types, objects that the table does not have, and mappings in variables.
 #define USE_MPDO 1
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint8_t mappable;
 std::uint8_t other;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Entry<co::Index<'2', '1', 'A', 'F'>, co::Sub<'0', '1'>, false>
 // Look-up of an index that the dictionary does not have.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint32_t number;
 

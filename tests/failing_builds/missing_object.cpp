@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Entry<co::Index<'2', '1', '0', '1'>, co::Sub<'0', '0'>, false>
 // Typed access to an entry that the dictionary does not have.
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 std::uint32_t number;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Entry<co::Index<'2', '1', '0', '0'>, co::Sub<'0', 'A'>, false>
 // Look-up of a sub-index that the dictionary does not have.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint32_t number;
 

@@ -2,7 +2,7 @@
 // expect: Dictionary<CO_DICT_NOT_CONFIGURED, co::Index<'1', '2', '8', '0'>, co::Sub<'0', '1'>
 // Without SDO clients there is no first one, whatever CO_CSDO_N says.
 #define USE_CSDO 0
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_NO_DATA, co::Index<'2', '0', '0', '0'>, co::Sub<'0', '3'>
 // An integer without flag D needs a variable.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_NO_TYPE, co::Index<'2', '0', '0', '0'>, co::Sub<'0', '0'>
 // An entry without a type.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint32_t number;
 

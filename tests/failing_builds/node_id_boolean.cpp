@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_NODEID_TYPE, co::Index<'2', '0', '0', '0'>, co::Sub<'0', '0'>
 // A BOOLEAN cannot be relative to the node-ID.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint8_t byte;
 

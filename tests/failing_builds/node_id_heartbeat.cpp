@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_NODEID_TYPE, co::Index<'1', '0', '1', '7'>, co::Sub<'0', '0'>
 // The heartbeat time cannot be relative to the node-ID.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint16_t heartbeat_time;
 

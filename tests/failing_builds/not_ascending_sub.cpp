@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_NOT_ASCENDING, co::Index<'2', 'A', 'B', 'C'>, co::Sub<'0', '1'>
 // The sub-indexes of an object are not in order.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint32_t number;
 

@@ -2,7 +2,7 @@
 // expect: Dictionary<CO_DICT_NOT_CONFIGURED, co::Index<'1', '2', '0', '1'>, co::Sub<'0', '1'>
 // An SDO server beyond CO_SSDO_N.
 #define CO_SSDO_N 1
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint32_t number;
 

@@ -2,8 +2,8 @@
 // expect: Dictionary<CO_DICT_NOT_CONFIGURED, co::Index<'1', '0', '2', '8'>, co::Sub<'0', '3'>
 // A node beyond CO_EMCY_CONS_N.
 #define CO_EMCY_CONS_N 2
-#include "co/dictionary.hpp"
 #include "co_emcy.h"
+#include "lexican/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},

@@ -2,7 +2,7 @@
 // expect: Dictionary<CO_DICT_NOT_CONFIGURED, co::Index<'1', '0', '1', '6'>, co::Sub<'0', '3'>
 // More nodes than CO_HBCONS_N.
 #define CO_HBCONS_N 2
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 CO_HBCONS consumers[2];
 

@@ -2,7 +2,7 @@
 // expect: Dictionary<CO_DICT_NOT_CONFIGURED, co::Index<'1', '4', '0', '0'>, co::Sub<'0', '1'>
 // A node without RPDOs.
 #define CO_RPDO_N 0
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},

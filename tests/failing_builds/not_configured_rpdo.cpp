@@ -3,7 +3,7 @@
 // An RPDO beyond CO_RPDO_N.
 #define CO_RPDO_N 4
 #define CO_TPDO_N 5
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},

@@ -3,7 +3,7 @@
 // The event timer of a TPDO beyond CO_TPDO_N, which would lie outside of the node.
 #define CO_RPDO_N 5
 #define CO_TPDO_N 4
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint16_t time;
 

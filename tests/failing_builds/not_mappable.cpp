@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_NOT_MAPPABLE, co::Index<'2', '0', '0', '1'>, co::Sub<'0', '2'>
 // A TPDO of the table maps an object that has no flag P.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint8_t first;
 std::uint8_t second;

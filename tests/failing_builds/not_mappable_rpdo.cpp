@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_NOT_MAPPABLE, co::Index<'2', '0', '0', '0'>, co::Sub<'0', '0'>
 // An RPDO of the table maps an object that has no flag P; how many objects it maps is in a variable.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint8_t number = 1;
 std::uint16_t value;

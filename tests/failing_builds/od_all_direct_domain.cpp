@@ -3,7 +3,7 @@
 // OD_ALL: the rules of the basic types hold.
 #define USE_OD 1
 #define OD_ALL
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},

@@ -3,8 +3,8 @@
 // An extensible dictionary that has no faults.
 #define USE_OD 1
 #define OD_ALL
-#include "co/object.hpp"
 #include "co_od.h"
+#include "lexican/object.hpp"
 
 std::uint32_t number;
 CO_OBJ_DOM domain;

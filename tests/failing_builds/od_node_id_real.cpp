@@ -2,7 +2,7 @@
 // expect: Dictionary<CO_DICT_NODEID_TYPE, co::Index<'6', '0', '0', '0'>, co::Sub<'1', '0'>
 // An extensible REAL32 is not relative to the node-ID, either.
 #define USE_OD 1
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 float object;
 

@@ -2,7 +2,7 @@
 // expect: Dictionary<CO_DICT_DIRECT_ADDRESS, co::Index<'6', '0', '0', '0'>, co::Sub<'1', '0'>
 // Data of a number that only an extension has is its length.
 #define USE_OD 1
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint32_t object;
 

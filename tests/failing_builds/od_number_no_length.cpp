@@ -2,7 +2,7 @@
 // expect: Dictionary<CO_DICT_NO_DATA, co::Index<'6', '0', '0', '0'>, co::Sub<'1', '0'>
 // A number that only an extension has needs a length.
 #define USE_OD 1
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},

@@ -2,7 +2,7 @@
 // expect: ValueType<int, co::Index<'6', '0', '0', '0'>, co::Sub<'1', '0'>, false>
 // An extensible UNSIGNED8 is not read as 16 bits.
 #define USE_OD 1
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 std::uint8_t object;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_RESERVED_INDEX, co::Index<'0', '0', '0', '7'>, co::Sub<'0', '0'>
 // 0007h stands for UNSIGNED32 itself and holds nothing.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint32_t number;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: ValueType<void, co::Index<'2', '1', '0', '0'>, co::Sub<'0', '1'>, false>
 // A domain is no value.
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 CO_OBJ_DOM object;
 

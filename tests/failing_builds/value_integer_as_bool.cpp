@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: ValueType<bool, co::Index<'2', '1', '0', '0'>, co::Sub<'0', '1'>, false>
 // An UNSIGNED8 is no bool, though it is as long.
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 std::uint8_t object;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: ValueType<float, co::Index<'2', '1', '0', '0'>, co::Sub<'0', '1'>, false>
 // An UNSIGNED32 is no float, though it is as long.
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 std::uint32_t object;
 

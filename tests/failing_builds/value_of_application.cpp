@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: ValueType<void, co::Index<'2', '1', '0', '0'>, co::Sub<'0', '1'>, false>
 // What a type of the application holds must be said.
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 const CO_OBJ_TYPE type = {};
 std::uint32_t object;

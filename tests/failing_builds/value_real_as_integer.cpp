@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: ValueType<int, co::Index<'2', '1', '0', '0'>, co::Sub<'0', '1'>, false>
 // A REAL32 is no integer, though it is as long.
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 float object;
 

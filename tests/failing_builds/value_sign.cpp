@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: ValueType<unsigned int, co::Index<'2', '1', '0', '0'>, co::Sub<'0', '1'>, false>
 // An INTEGER24 is not read as an unsigned number.
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 std::int32_t object;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: ValueType<int, co::Index<'2', '1', '0', '0'>, co::Sub<'0', '1'>, false>
 // An UNSIGNED8 is not read as 16 bits.
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 std::uint8_t object;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'1', '0', '1', '8'>, co::Sub<'0', '0'>
 // The type of 1017h at another index.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint16_t heartbeat_time;
 

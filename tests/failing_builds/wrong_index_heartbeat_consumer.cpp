@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'1', '0', '1', '7'>, co::Sub<'0', '0'>
 // The type of 1016h at the index of the producer.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 CO_HBCONS consumer;
 

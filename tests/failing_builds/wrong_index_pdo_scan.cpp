@@ -2,7 +2,7 @@
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'1', 'F', 'D', '0'>, co::Sub<'0', '1'>
 // The object dispatching list is none of scanned objects.
 #define USE_MPDO 1
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},

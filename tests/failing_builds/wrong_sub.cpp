@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'1', '0', '1', '7'>, co::Sub<'0', '1'>
 // 1017h has no sub-index 1.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint16_t heartbeat_time;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'1', '0', '0', '3'>, co::Sub<'F', 'F'>
 // 1003h has 254 entries.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 std::uint32_t entry;
 

@@ -20,6 +20,10 @@ lane() {
     $'/// A\nenum A { a };'; do
     check "found: no comment in: ${symbol//$'\n'/ }" undocumented '/// \file planted.hpp' '/// A header.' '' "$symbol"
   done
+  check "found: a function without list of results" without_results '/// \file planted.h' '/// A header.' '' \
+    '/// A function.' 'CO_ERR a();'
+  check "a list of results is accepted" reference_of planted.h '/// \file planted.h' '/// A header.' '' '/// A function.' \
+    '/// \retval CO_ERR_NONE  success' 'CO_ERR a();'
   draw_planted_pages
   rm -rf "$results/site"
   local pages=("${reference_pages[@]/%/.html}")
@@ -56,9 +60,16 @@ plant_page() { printf '<!DOCTYPE html><title>%s</title>%s\n' "$1" "$2" >"$result
 found_in() { grep "^not ok $1.html at 400 pixels: .*$2" "$drawn"; }  # PAGE FAULT
 
 # Makes the API reference of a header.
-reference() {  # LINE...
-  printf '%s\n' "$@" >"$results/planted.hpp"
-  "$root/docs/site/reference.sh" "$root" "$results/reference" "$results/planted.hpp"
+reference() { reference_of planted.hpp "$@"; }  # LINE...
+
+reference_of() {  # NAME LINE...
+  printf '%s\n' "${@:2}" >"$results/$1"
+  "$root/docs/site/reference.sh" "$root" "$results/reference" "$results/$1"
+}
+
+without_results() {  # LINE...
+  local said
+  ! said=$(reference_of planted.h "$@" 2>&1) && grep ' has no list of ' <<<"$said"
 }
 
 undocumented() {  # LINE...

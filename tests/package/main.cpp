@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "co/dictionary.hpp"
 #include "co_core.h"
+#include "lexican/dictionary.hpp"
 
 static CO_NODE node;
 static CO_NODE_SPEC empty;

@@ -11,8 +11,8 @@
 #include <cstring>
 #include <iterator>
 
-#include "co/dictionary.hpp"
 #include "co_core.h"
+#include "lexican/dictionary.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "co/object.hpp"
+#include "lexican/object.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "bus.hpp"
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 #include "machine.hpp"
 
 namespace zynqmp {

@@ -3,10 +3,7 @@
 // entry.
 #include "dictionary/types/integer.hpp"
 
-#include "co_integer16.h"
-#include "co_integer32.h"
-#include "co_integer8.h"
-#include "co_real.h"
+#include "co_number.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/number.hpp"
 

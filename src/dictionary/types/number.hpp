@@ -4,9 +4,7 @@
 
 #include "base/events.hpp"
 #include "co_core.h"
-#include "co_integer16.h"
-#include "co_integer32.h"
-#include "co_integer8.h"
+#include "co_number.h"
 #include "dictionary/types/place.hpp"
 #include "hal/port.hpp"
 #include "wire/bytes.hpp"

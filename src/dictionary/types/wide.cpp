@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers of 24, 40, 48, 56 and 64 bits, and REAL64: values in a variable of 4 or 8 bytes, or in the entry.
-#include "co_integer32.h"
-#include "co_integer64.h"
-#include "co_real.h"
+#include "co_number.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/number.hpp"
 

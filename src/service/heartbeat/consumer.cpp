@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heartbeat consumer: 1016h. [301:7.2.8.3.2.2, 7.5.2.19] A heartbeat only stores its time. One timer for all consumers
 // elapses when the first node may be missing, and then checks all of them.
-#include "co_hb_cons.h"
+#include "co_heartbeat.h"
 
 #include "base/callbacks.hpp"
 #include "base/events.hpp"

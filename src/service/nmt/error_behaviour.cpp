@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1029h: reaction of the node to the loss of the network. [301:7.5.2.32]
-#include "co_error_behaviour.h"
+#include "co_nmt.h"
 
 #include "base/events.hpp"
 #include "dictionary/dict.hpp"

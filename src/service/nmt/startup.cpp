@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1F80h, NMT startup: self-start. [302-2]
-#include "co_nmt_startup.h"
+#include "co_nmt.h"
 
 #include "base/events.hpp"
 #include "dictionary/dict.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1200h…12FFh, sub 1 and 2: COB-IDs of the SDO servers and clients. [301:7.5.2.33-34]
-#include "co_sdo_id.h"
+#include "co_sdo.h"
 
 #include "base/events.hpp"
 #include "co_core.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The optimised program must keep only the access to the variable, or the value, of these functions.
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 
 extern std::uint32_t speed;
 

@@ -211,7 +211,7 @@ std::string handle_type(const Item& item) {
 }
 
 void write_handles(const Plan& plan, const Options& options, Lines& out) {
-  out.add("\n#ifdef __cplusplus\n#include \"co/object.hpp\"\n");
+  out.add("\n#ifdef __cplusplus\n#include \"lexican/object.hpp\"\n");
   out.add("/// Entries as values of their C++ types: {}_objects::od_1017_0(node).set(500).", options.name);
   out.add("namespace {}_objects {{\n", options.name);
   out.raw(

@@ -239,7 +239,7 @@ class SourceText {
       out_.raw("#include <math.h>\n");
     }
     if (is_cpp()) {
-      out_.raw("\n#include \"co/dictionary.hpp\"\n");
+      out_.raw("\n#include \"lexican/dictionary.hpp\"\n");
     }
   }
 

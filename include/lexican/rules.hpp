@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file co/rules.hpp
+/// \file lexican/rules.hpp
 /// The rules for a dictionary, used by the compiler and by the node. [CiA 301, 7.4]
 ///
 /// - check_entry() needs the table only. Called by CO_OD_CHECK() and CODictInit(). The latter does not check the
@@ -8,7 +8,7 @@
 ///   which only the compiler may do: at run time, a list of all types would link all of them into a firmware that uses
 ///   three. At run time a type that is restricted to certain indices checks its rule in its Init function.
 /// - Checks of values against addresses, and of writable data in read-only memory, are done by CO_OD_CHECK() only
-///   (co/dictionary.hpp).
+///   (lexican/dictionary.hpp).
 #pragma once
 
 extern "C++" {  // co_core.h may be included inside extern "C" { }

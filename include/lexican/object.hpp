@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file co/object.hpp
+/// \file lexican/object.hpp
 /// Access to objects as values of C++ types.
 ///
 ///     const auto speed = co::object<std::uint32_t>(node, 0x2100, 1);  // looked up once
@@ -19,7 +19,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_core.h"
 
 #ifndef CO_DATA_INTEGER
-#include "co/dictionary.hpp"
+#include "lexican/dictionary.hpp"
 #endif
 
 /// The C++ interface of the stack and of its drivers.

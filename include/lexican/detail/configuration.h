@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file co_configuration.h
+/// \file lexican/detail/configuration.h
 /// Prevents linking a program with a library that was compiled with other values of co_cfg.h: structures would differ
 /// in size, and CONodeInit() would write beyond the program's CO_NODE. In a program that includes co_core.h the linker
 /// symbols of CONodeInit() and CONodeInitEx() end in a number, which the preprocessor computes from all settings. The
@@ -10,8 +10,8 @@
 /// Remedy: compile library and program with the same definitions (-D), the same preset and the same co_cfg.h. The check
 /// adds no code and no data. Objects that use the plain symbol CONodeInit, without this header, are linked unchecked.
 /// Only for ELF; on other targets nothing is checked.
-#ifndef CO_CONFIGURATION_H_
-#define CO_CONFIGURATION_H_
+#ifndef LEXICAN_DETAIL_CONFIGURATION_H_
+#define LEXICAN_DETAIL_CONFIGURATION_H_
 
 #include "co_cfg.h"
 

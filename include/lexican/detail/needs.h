@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file co_needs.h
+/// \file lexican/detail/needs.h
 /// Names the setting of co_cfg.h that a function or an object type needs. Functions that the configuration excludes are
 /// declared, but calling one, or taking its address, is a compile error:
 ///
@@ -7,8 +7,8 @@
 ///
 /// With gcc from 12 on, and clang. Older versions of gcc give a warning with the same text, and the linker rejects the
 /// call. With other compilers only the linker rejects it.
-#ifndef CO_NEEDS_H_
-#define CO_NEEDS_H_
+#ifndef LEXICAN_DETAIL_NEEDS_H_
+#define LEXICAN_DETAIL_NEEDS_H_
 
 #include "co_cfg.h"
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file co_hb_cons.h
+/// \file co_heartbeat.h
+/// Heartbeat consumer and producer. [CiA 301, 7.2.8.3.2.2]
+///
 /// 1016h, consumer heartbeat time: the nodes that this node monitors. [CiA 301, 7.5.2.19, 7.2.8.3.2.2]
 ///
 /// Entries: sub 0, a uint8_t or the value itself (flag D); sub 1…CO_HBCONS_N, a CO_HBCONS in RAM each. The network
@@ -15,14 +17,14 @@
 /// resolved. A write that does not change the entry has no effect. A write is refused for a node that another entry
 /// monitors (CO_ERR_OBJ_INCOMPATIBLE, 0604 0043h), and for a time beyond the range of the timer (CO_ERR_OBJ_RANGE, 0609
 /// 0030h). If the table contains such an entry, the entry is not used (node error CO_ERR_OBJ_INIT).
-#ifndef CO_HB_CONS_H_
-#define CO_HB_CONS_H_
+#ifndef CO_HEARTBEAT_H_
+#define CO_HEARTBEAT_H_
 
 #include "co_err.h"
-#include "co_needs.h"
 #include "co_nmt.h"
 #include "co_obj.h"
 #include "co_types.h"
+#include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -60,6 +62,19 @@ extern const CO_OBJ_TYPE COTNmtHbCons CO_NEEDS(CO_HBCONS_N);  ///< functions of 
 /// \retval CO_ERR_OBJ_INCOMPATIBLE  another entry monitors the node
 /// \retval CO_ERR_OBJ_RANGE         the time is beyond the range of the timer
 CO_ERR CONmtHbConsActivate(CO_HBCONS* hbc, uint16_t time, uint8_t nodeid) CO_NEEDS(CO_HBCONS_N);
+
+/// \name 1017h, producer heartbeat time
+/// [CiA 301, 7.5.2.20] Data: a uint16_t in ms, or the value itself (flag D); 0: off. A write takes effect at once; with
+/// a plain CO_TUNSIGNED16 instead, at the next reset. A time beyond the range of the timer is refused with
+/// CO_ERR_OBJ_RANGE.
+/// \{
+
+typedef uint16_t CO_OBJ_HB_PROD;  ///< variable of 1017h, in ms
+
+extern const CO_OBJ_TYPE COTNmtHbProd;  ///< functions of CO_THB_PROD
+
+#define CO_THB_PROD ((const CO_OBJ_TYPE*)&COTNmtHbProd)  ///< type of 1017h
+/// \}
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file co/dictionary.hpp
+/// \file lexican/dictionary.hpp
 /// Compile-time checks of a constexpr dictionary, and compile-time lookup of its entries.
 ///
 ///     constexpr CO_OBJ od[] = {
@@ -21,47 +21,30 @@
 extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 #ifdef CO_DATA_INTEGER
-#error "co/dictionary.hpp: with CO_DATA_INTEGER the compiler cannot look into a dictionary"
+#error "lexican/dictionary.hpp: with CO_DATA_INTEGER the compiler cannot look into a dictionary"
 #endif
 
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
-#include "co/rules.hpp"
 #include "co_domain.h"
-#include "co_emcy_cons.h"
-#include "co_emcy_hist.h"
-#include "co_emcy_id.h"
-#include "co_error_behaviour.h"
-#include "co_hb_cons.h"
-#include "co_hb_prod.h"
-#include "co_integer16.h"
-#include "co_integer32.h"
-#include "co_integer64.h"
-#include "co_integer8.h"
-#include "co_nmt_startup.h"
+#include "co_emcy.h"
+#include "co_heartbeat.h"
+#include "co_nmt.h"
+#include "co_number.h"
 #include "co_obj.h"
+#include "lexican/rules.hpp"
 #if USE_OD
 #include "co_od.h"
 #endif
+#include "co_number.h"
 #include "co_para.h"
-#include "co_pdo_dispatch.h"
-#include "co_pdo_event.h"
-#include "co_pdo_id.h"
-#include "co_pdo_inhibit.h"
-#include "co_pdo_map.h"
-#include "co_pdo_num.h"
-#include "co_pdo_scan.h"
-#include "co_pdo_start.h"
-#include "co_pdo_type.h"
-#include "co_real.h"
-#include "co_sdo_id.h"
+#include "co_pdo_types.h"
+#include "co_sdo.h"
 #include "co_string.h"
-#include "co_sync_count.h"
-#include "co_sync_cycle.h"
-#include "co_sync_id.h"
-#include "co_time_id.h"
+#include "co_sync.h"
+#include "co_time.h"
 #include "co_time_of_day.h"
 
 /// Checks at compile time that \a od, a constexpr array of CO_OBJ with static storage, is a dictionary without faults.

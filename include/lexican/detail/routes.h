@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file lexican/detail/routes.h
+/// Members of CO_NODE that no application accesses: the routing table and the transmit queue.
+#ifndef LEXICAN_DETAIL_ROUTES_H_
+#define LEXICAN_DETAIL_ROUTES_H_
+
+#include "co_cfg.h"
+#include "co_if_can.h"
+#include "co_types.h"
+
+/// \cond internal
+// Routes: NMT, error control, LSS, SDO, heartbeat and EMCY consumers, SYNC and TIME, PDOs.
+#define CO_ROUTE_N                                                                                           \
+  (2 + (USE_LSS ? 1 : 0) + (USE_LSS_MASTER ? 1 : 0) + CO_SSDO_N + (USE_CSDO ? CO_CSDO_N : 0) + CO_HBCONS_N + \
+   CO_EMCY_CONS_N + (USE_SYNC ? 1 : 0) + (USE_TIME ? 1 : 0) + CO_RPDO_N + (USE_PDO_RTR ? CO_TPDO_N : 0))
+#if CO_ROUTE_N > 255
+typedef uint16_t CO_ROUTE_NUM;
+#else
+typedef uint8_t CO_ROUTE_NUM;
+#endif
+
+#define CO_ROUTE_CLASS_N (USE_FAST_PATHS ? 17 : 1)
+
+typedef struct CO_ROUTES_T {  ///< routing table: the service instances that consume each identifier
+  /// Index of the first route of each function code (CAN-ID >> 7) and of the 29-bit identifiers, then the end. With
+  /// USE_FAST_PATHS 0 one class holds all routes.
+  CO_ROUTE_NUM Start[CO_ROUTE_CLASS_N + 1];
+  uint32_t Id[CO_ROUTE_N + 1];  ///< identifiers with flags, ascending, then an end mark that is no identifier
+  uint16_t Owner[CO_ROUTE_N];   ///< service in bits 15…12, number of its instance in bits 11…0
+} CO_ROUTES;
+
+typedef struct CO_TX_QUEUE_T {  ///< transmit queue, ordered by priority
+  CO_IF_FRM* Frame;
+  uint16_t Len;
+  uint16_t Num;
+  uint16_t Fixed;  ///< number of frames at the head that no frame may overtake: up to and including the boot-up message
+} CO_TX_QUEUE;
+/// \endcond
+
+#endif
