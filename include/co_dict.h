@@ -153,11 +153,9 @@ CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val);   ///< writes 32 
 /// \retval CO_ERR_OBJ_ACC        the type has no Read function
 CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 
-/// Finds a stream or value and writes \a len bytes from \a buf to it, from its beginning. Returns the result of the type
-/// function, or:
-/// \retval CO_ERR_BAD_ARG        an argument is null, or a value has another length
-/// \retval CO_ERR_OBJ_NOT_FOUND  there is no such entry
-/// \retval CO_ERR_OBJ_ACC        the type has no Write function
+/// Finds a stream or value and writes \a len bytes from \a buf to it, from its beginning. Returns the result of the
+/// type function, or: \retval CO_ERR_BAD_ARG        an argument is null, or a value has another length \retval
+/// CO_ERR_OBJ_NOT_FOUND  there is no such entry \retval CO_ERR_OBJ_ACC        the type has no Write function
 CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 
 /// Makes \a root the table of the dictionary. The table has \a max entries, or ends at the first entry with key 0; an
