@@ -11,7 +11,7 @@ namespace lexican::codict::check {
 
 namespace {
 
-constexpr std::uint64_t source_mode = 0xFE;
+constexpr std::uint64_t source_mode = 0xFE;  // sub-index 0 of the mapping: source address mode
 
 bool has_object(const Device& device, std::uint16_t first, std::uint16_t last) {
   return std::any_of(device.objects.begin(), device.objects.end(),
@@ -23,6 +23,7 @@ bool has_list(const Device& device, bool is_transmit) {
   return is_transmit ? has_object(device, 0x1FA0, 0x1FCF) : has_object(device, 0x1FD0, 0x1FFF);
 }
 
+// A multiplexed PDO is event-driven: transmission type 254 or 255.
 void check_type(const Pdo& pdo, Findings& findings) {
   const Entry* const type = pdo.parameter(2);
   if (type != nullptr && value_in_force(*type).is_integer() &&

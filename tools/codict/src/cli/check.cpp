@@ -20,6 +20,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
+// Format of the output (--error-format).
 enum class Form : unsigned char { gcc, json, sarif, github };
 
 struct CheckOptions {
@@ -40,10 +41,11 @@ struct Report {
   std::map<Severity, std::size_t> counts;
   Json files = Json::array();
   Sarif sarif;
-  Baseline known;
-  Baseline fresh;
+  Baseline known;  // findings of --baseline that have not occurred yet
+  Baseline fresh;  // findings for --write-baseline
 };
 
+// Returns the findings without folding equal ones (--all).
 std::vector<FoldedFindings> each_alone(const std::vector<Finding>& findings) {
   std::vector<FoldedFindings> all;
   all.reserve(findings.size());
@@ -62,6 +64,7 @@ bool is_wanted(const Rule& rule, const CheckOptions& options) {
          std::find(options.disabled.begin(), options.disabled.end(), rule.id) == options.disabled.end();
 }
 
+// Returns the findings to report: those that the options select and the baseline does not contain.
 std::vector<Finding> wanted(const Input& input, const CheckOptions& options, Report& report) {
   std::vector<Finding> result;
   for (const Finding& finding : input.findings.all()) {
@@ -73,7 +76,8 @@ std::vector<Finding> wanted(const Input& input, const CheckOptions& options, Rep
   return result;
 }
 
-void say_what_has_gone(const Input& input, const CheckOptions& options, const Baseline& known) {
+// Prints the number of findings of the baseline that no longer occur.
+void print_obsolete(const Input& input, const CheckOptions& options, const Baseline& known) {
   const std::size_t number = known.left(input, [&options](const std::string& id) {
     const Rule* const rule = catalogue::find_rule(id);
     return rule == nullptr || is_wanted(*rule, options);
@@ -128,6 +132,7 @@ void show(const Input& input, const std::vector<Finding>& findings, const Json& 
   }
 }
 
+// Checks the devices against the profile: a number, "auto", or empty for no profile.
 void check_profiles(Input& input, const std::string& profile) {
   if (profile.empty()) {
     return;
@@ -138,6 +143,7 @@ void check_profiles(Input& input, const std::string& profile) {
   }
 }
 
+// Checks a file and prints its findings, or adds them to the new baseline. Returns the exit status.
 int check_file(const std::string& path, const CheckOptions& options, Report& report) {
   std::optional<Input> input = load(path);
   if (!input) {
@@ -157,10 +163,11 @@ int check_file(const std::string& path, const CheckOptions& options, Report& rep
     ++report.counts[finding.severity];
   }
   show(*input, findings, dropped, options, report);
-  say_what_has_gone(*input, options, report.known);
+  print_obsolete(*input, options, report.known);
   return findings.empty() && dropped.members().empty() ? clean : found;
 }
 
+// Prints what follows the findings of all files: the JSON or SARIF document, or a summary.
 void finish(const CheckOptions& options, Report& report, int status) {
   if (options.form == Form::json) {
     print_json(Json{{"schema", "codict-check-1"}, {"files", std::move(report.files)}});

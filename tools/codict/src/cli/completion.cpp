@@ -54,7 +54,7 @@ complete -o bashdefault -o default -F _codict codict
                               names, long_names(line.describe()));
 }
 
-// Puts a backslash before each character in marks.
+// Returns the text with a backslash before each character that marks contains.
 std::string escaped(std::string_view text, std::string_view marks) {
   std::string result;
   for (const char c : text) {
@@ -80,7 +80,8 @@ std::string zsh_values(const OptionText& option) {
   return fmt::format(":{}:{}", option.type, option.type == "UINT" ? " " : "_files");
 }
 
-// Returns a line "        '*--level[Least severity …]:ENUM:(note warning error)' \" for each name of an option.
+// Returns nothing for a positional argument, else a line "        '*--level[Least severity …]:ENUM:(note warning
+// error)' \" for each name of an option.
 std::string zsh_option(const OptionText& option) {
   if (!option.name.empty()) {
     return "";
@@ -134,6 +135,7 @@ std::string zsh_completion(const CommandLine& line) {
 // Returns 'text', quoted as one word of fish.
 std::string fish_word(std::string_view text) { return "'" + escaped(text, "\\'") + "'"; }
 
+// Returns a command of fish that completes an option where the condition is true; nothing for a positional argument.
 std::string fish_option(const OptionText& option, const std::string& condition) {
   if (!option.name.empty()) {
     return "";

@@ -36,12 +36,12 @@ struct ConvertOptions {
   bool is_all = false;
 };
 
-// Format for --to or a file extension, and the formats whose files it copies unchanged.
+// Format of the output.
 struct Product {
-  std::string_view name;
+  std::string_view name;  // value of --to, or file extension
   Target target;
-  xdd::Edition edition;
-  std::array<Format, 2> same;
+  xdd::Edition edition;        // used for XDD and XDC only
+  std::array<Format, 2> same;  // input formats that need no conversion
 };
 
 constexpr std::array<Product, 9> products = {{
@@ -62,6 +62,7 @@ const Product* find_product(std::string_view name) {
   return place != products.end() ? place : nullptr;
 }
 
+// Returns true if the input already has the format of the output.
 bool is_same(const Input& input, const Product& product) {
   if (product.target == Target::json || input.json != nullptr) {
     return product.target == Target::json && input.json != nullptr;
@@ -75,8 +76,8 @@ xdd::Edition edition_of(const Device& device, const Product& product) {
   return is_older && product.same.front() != product.same.back() ? xdd::Edition::v10 : product.edition;
 }
 
-// Returns the output. Frees the source and moves the device before, because a large description needs much memory.
-std::string written(Input input, const Product& product, const ConvertOptions& options) {
+// Returns the bytes of the output. Frees the parsed source first, because a large description needs much memory.
+std::string convert_description(Input input, const Product& product, const ConvertOptions& options) {
   const bool is_same_format = is_same(input, product);
   input.eds.reset();
   input.xdd.reset();
@@ -104,7 +105,8 @@ convert::NodeSettings settings_of(const ConvertOptions& options) {
   return settings;
 }
 
-// Returns true if the format can hold the settings of a node: DCF, XDC and JSON describe a single node.
+// Returns true if the format can contain the settings of a node: DCF, XDC and JSON describe a single node. Otherwise
+// prints the reason.
 bool has_place(const convert::NodeSettings& settings, Target target) {
   const std::string fault = convert::fault_of(settings);
   if (!fault.empty()) {
@@ -130,6 +132,7 @@ std::size_t impossible_characters(const Device& device, Target target) {
   return number;
 }
 
+// Returns the contents of the input that the output format cannot express.
 std::vector<Loss> losses_of(const Input& input, Target target) {
   std::vector<Loss> losses = convert::losses(input.description, target);
   const std::size_t characters = target == Target::json ? 0 : impossible_characters(input.device(), target);
@@ -205,7 +208,7 @@ int run_convert(const ConvertOptions& options) {
     }
   }
   convert::commission(settings, input->description.devices.front());
-  return write_output(options.output, written(std::move(*input), *product, options));
+  return write_output(options.output, convert_description(std::move(*input), *product, options));
 }
 
 void add_node_options(Arguments& command, ConvertOptions& options) {

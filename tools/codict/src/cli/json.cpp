@@ -10,6 +10,7 @@ namespace {
 
 using Tree = nlohmann::ordered_json;
 
+// Converts to the type of the library, which prints it.
 Tree tree_of(const Json& json) {
   switch (json.kind()) {
     case Json::Kind::boolean: return json.boolean();

@@ -17,9 +17,10 @@ struct ListOptions {
   bool has_objects_only = false;
 };
 
-std::string word(const std::string& text) { return text.empty() ? "-" : visible(text); }
+std::string visible_or_dash(const std::string& text) { return text.empty() ? "-" : visible(text); }
 
-std::string line(const Reference& reference, const Entry& entry) {
+// Returns the line of an object or sub-object.
+std::string line_of(const Reference& reference, const Entry& entry) {
   const std::string place = to_string(reference);
   if (has_sub_objects(entry.object_code.value)) {
     return fmt::format("{:<8} {:<15} {:<5} {:<4} {:<18} {}\n", place, name_of(entry.object_code.value), "", "", "",
@@ -27,7 +28,7 @@ std::string line(const Reference& reference, const Entry& entry) {
   }
   const bool is_mapped = entry.pdo_mapping.value != PdoMapping::no;
   return fmt::format("{:<8} {:<15} {:<5} {:<4} {:<18} {}\n", place, type_name(entry), name_of(entry.access.value),
-                     is_mapped ? "PDO" : "", word(value_in_force(entry).text), visible(entry.name.text));
+                     is_mapped ? "PDO" : "", visible_or_dash(value_in_force(entry).text), visible(entry.name.text));
 }
 
 void add_values(Json& json, const Entry& entry) {
@@ -68,7 +69,7 @@ int run_list(const ListOptions& options) {
     if (options.is_json) {
       all.push_back(entry_json(reference, entry));
     } else {
-      lines += line(reference, entry);
+      lines += line_of(reference, entry);
     }
   };
   for (const Object& object : input->device().objects) {

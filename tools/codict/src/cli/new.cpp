@@ -40,11 +40,13 @@ std::string project_name(const std::string& directory) {
   return name.empty() ? "device" : name;
 }
 
+// Returns the file name of the description in the project.
 std::string description_name(const NewOptions& options) {
   return options.profile.empty() ? std::filesystem::path(options.from).filename().string()
                                  : project_name(options.directory) + ".eds";
 }
 
+// Reads the description, or creates that of the profile.
 std::optional<Input> description_of(const NewOptions& options) {
   if (options.profile.empty()) {
     return load(options.from);
@@ -69,6 +71,7 @@ bool can_be_sent(const Pdo& pdo) {
                      [](const MappedObject& mapped) { return mapped.entry != nullptr; });
 }
 
+// Chooses the TPDO that the program triggers: the first one that can be sent and has a valid COB-ID of 11 bits.
 void choose_tpdo(const Device& device, project::Options& options) {
   const std::vector<CobId> cob_ids = cob_ids_of(device, options.node_id);
   for (const Pdo& pdo : pdos_of(device)) {
@@ -99,6 +102,7 @@ std::vector<std::pair<std::string, unsigned>> settings_of(const std::string& hea
   return settings;
 }
 
+// Returns all files of the project: its build files and sources, the description, and the generated dictionary.
 std::vector<project::File> files_of(const NewOptions& options, const Input& input, const gen::Output& output,
                                     const std::string& dictionary, bool is_forced) {
   const bool is_cpp = options.language == gen::Language::cpp;

@@ -23,27 +23,29 @@ struct PdoOptions {
   bool is_json = false;
 };
 
-// PDO with its contents and its COB-ID, which is null if it has none.
+// PDO of the output.
 struct Row {
   const Pdo& pdo;
-  const doc::PdoItem& item;
-  const CobId* cob_id;
+  const doc::PdoItem& item;  // its title and mapped objects
+  const CobId* cob_id;       // null: it has no COB-ID
 };
 
+// Sub-indexes of the communication parameters. [301: 7.5.2.37]
 constexpr std::uint8_t inhibit_time = 3;
 constexpr std::uint8_t event_time = 5;
 constexpr std::uint8_t sync_start = 6;
 
+// Returns the value of a communication parameter; null if it is missing or no number.
 const Value* value_of(const Pdo& pdo, std::uint8_t sub_index) {
   const Entry* const entry = pdo.parameter(sub_index);
   const bool is_number = entry != nullptr && value_in_force(*entry).is_integer();
   return is_number ? &value_in_force(*entry) : nullptr;
 }
 
-// Letters for the mapped objects in a picture: a PDO has up to 64 bits.
+// Characters for the mapped objects in a picture: a PDO maps up to 64 objects.
 constexpr std::string_view signs = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+*";
 
-// Returns a picture with a line for each byte, bit 7 on the left.
+// Returns a picture with a line for each byte, bit 7 on the left, and the character of the mapped object for each bit.
 std::string picture_of(const doc::PdoItem& item) {
   std::string bits(std::size_t{8} * ((std::min(item.bits, 64U) + 7) / 8), '.');
   for (std::size_t n = 0; n < std::min(item.parts.size(), signs.size()); ++n) {

@@ -36,6 +36,7 @@ struct Refusal {
   Status status = unusable;
 };
 
+// Adds the edits that set a key of an EDS section. Returns false if the file cannot contain the text.
 bool assign(const eds::Document& document, const eds::Section& section, const Assignment& assignment, Edits& edits) {
   const std::string_view name = key_of(assignment.field);
   const eds::Key* const key = document.find(section, name);
@@ -45,11 +46,11 @@ bool assign(const eds::Document& document, const eds::Section& section, const As
 
 // Returns the XML attribute of a field, empty if it has none. [311: CANopenObject]
 std::string_view attribute_of(std::string_view field) {
-  struct Word {
+  struct Pair {
     std::string_view field;
     std::string_view attribute;
   };
-  constexpr std::array<Word, 8> words = {{{"type", "dataType"},
+  constexpr std::array<Pair, 8> pairs = {{{"type", "dataType"},
                                           {"access", "accessType"},
                                           {"default", "defaultValue"},
                                           {"value", "actualValue"},
@@ -57,11 +58,13 @@ std::string_view attribute_of(std::string_view field) {
                                           {"high", "highLimit"},
                                           {"pdo", "PDOmapping"},
                                           {"flags", "objFlags"}}};
-  const auto* const word =
-      std::find_if(words.begin(), words.end(), [field](const Word& w) { return w.field == field; });
-  return word != words.end() ? word->attribute : field == "denotation" ? field : std::string_view();
+  const auto* const pair =
+      std::find_if(pairs.begin(), pairs.end(), [field](const Pair& p) { return p.field == field; });
+  return pair != pairs.end() ? pair->attribute : field == "denotation" ? field : std::string_view();
 }
 
+// Adds the edits that set a field of an XDD object. On failure, refusal may have a more precise reason than the
+// caller's.
 bool assign(const xdd::Document& document, const Entry& entry, const Assignment& assignment, Edits& edits,
             Refusal& refusal) {
   const Text* const text = find_text(entry, assignment.field);
@@ -118,7 +121,7 @@ bool assign_all(const Input& input, const SetOptions& options, Edits& edits, Ref
   });
 }
 
-// Returns false if a field is given twice, which is a mistake of the user.
+// Returns false, with the reason, if a field is given twice.
 bool has_fields_once(const SetOptions& options, std::string& why) {
   std::vector<std::string_view> fields;
   for (const std::string& each : options.assignments) {
@@ -138,6 +141,7 @@ bool has_fields_once(const SetOptions& options, std::string& why) {
   return true;
 }
 
+// Applies the assignments; bytes are those of the changed file. On failure, refusal has the reason.
 bool change(const Input& input, const SetOptions& options, std::string& bytes, Refusal& refusal) {
   if (!has_fields_once(options, refusal.why)) {
     return false;

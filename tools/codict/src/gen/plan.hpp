@@ -19,6 +19,7 @@ namespace lexican::codict::gen {
 
 enum class Language : unsigned char { c, cpp };
 
+/// Options of the generator.
 struct Options {
   std::string name;    ///< prefix of all generated names: a C identifier
   std::string source;  ///< file name of the description, for the comment at the top
@@ -44,6 +45,7 @@ enum class Storage : unsigned char {
   application,  ///< known only to the object type, which the application defines
 };
 
+/// Range of an entry's value.
 struct Limits {
   std::string low;             ///< literal; empty: no limit
   std::string high;            ///< literal; empty: no limit
@@ -57,8 +59,8 @@ struct Item {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
   std::string name;                ///< name in the description, for comments
-  std::size_t own_name_begin = 0;  ///< length of the part of the name that names the object with the sub-object
-  Span span;
+  std::size_t own_name_begin = 0;  ///< offset of the entry's own name in `name`, behind the name of its object
+  Span span;                       ///< place in the description, for findings
   Access access = Access::ro;
   PdoMapping pdo = PdoMapping::no;
   const Form* form = nullptr;
@@ -88,6 +90,7 @@ enum class Role : unsigned char {
   memory,      ///< bytes of a string or domain
 };
 
+/// Member of a struct of variables.
 struct Member {
   std::size_t item = 0;  ///< index in Plan::items
   Role role = Role::value;
@@ -123,10 +126,11 @@ struct Group {
 
 /// Mapping parameter of a PDO, for the compile-time check of its length.
 struct PdoSum {
-  std::uint16_t index = 0;     ///< of the mapping parameter
+  std::uint16_t index = 0;     ///< index of the mapping parameter
   std::vector<unsigned> bits;  ///< length of each mapped object
 };
 
+/// Plan of a dictionary: make_plan() creates it, the writers of C and C++ read it.
 struct Plan {
   std::vector<Item> items;  ///< entries in ascending order of their keys; none if they are too many
   std::size_t entries = 0;  ///< number of entries; more than `most_items` are an error
