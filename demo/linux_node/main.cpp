@@ -28,10 +28,10 @@ constexpr const char* default_interface = "vcan0";
 constexpr bool tour_begins_with_lss = USE_LSS != 0 && USE_LSS_MASTER != 0;
 constexpr std::uint32_t ticks_per_millisecond = Node::ticks_per_second / 1000;
 
-/// The bus to use, and why; or no host, and the fault.
+/// Bus to use.
 struct Bus {
-  std::unique_ptr<Host> host;
-  std::string about;
+  std::unique_ptr<Host> host;       // null: no bus could be opened
+  std::string about;                // name of the bus and reason for its choice; without host: the fault
   std::string master_options = {};  // options of lexican-demo-master for the same bus
 };
 
@@ -93,8 +93,8 @@ std::string open_storage(Storage& storage, const Options& options) {
 
 /// Returns the node-ID of the node at its start.
 std::uint8_t first_node_id(const Options& options) {
-  const bool none = options.serve ? options.unconfigured : tour_begins_with_lss;
-  return none ? no_node_id : options.node_id;
+  const bool is_unconfigured = options.serve ? options.unconfigured : tour_begins_with_lss;
+  return is_unconfigured ? no_node_id : options.node_id;
 }
 
 /// Returns a serial number. Two nodes on a bus need different LSS addresses; the storage file identifies a node across
@@ -129,6 +129,7 @@ std::string about_master(Clock& clock, const Bus& bus, const Options& options) {
   return master + text(" --node %u --index 1008 read", clock.node_id());
 }
 
+/// Runs the tour: the master uses the functions of the node one after the other. Returns the exit status.
 int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
   Master master(host, clock, options.node_id);
   const TourResult result = run_tour(clock, master, view);
@@ -142,7 +143,7 @@ int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
   return result.failed.empty() ? exit_ok : exit_failed;
 }
 
-/// Prints a fault of the bus, once until frames are transferred again.
+/// Prints a fault of the bus. It is printed again only after frames have been transferred.
 class FaultReport {
  public:
   void update(Host& host, Clock& clock, View& view) {
@@ -161,6 +162,7 @@ class FaultReport {
   std::uint32_t frames_ = 0;
 };
 
+/// Runs the node until Ctrl-C. Returns the exit status.
 int serve(Host& host, Clock& clock, const HeartbeatWatch& heartbeats, View& view) {
   if (!clock.start()) {
     view.line("the node does not start: " + clock.node().error_text());

@@ -7,7 +7,7 @@
 // Variables of the object dictionary
 static uint8_t ErrorRegister;
 static uint16_t HeartbeatTime;
-static uint16_t EventTime;   // of the TPDO, in ms; 0: by event only
+static uint16_t EventTime;   // of the TPDO, ms; 0: sent only when a value changes
 static int16_t Temperature;  // 0.1 degrees Celsius
 static uint8_t Heating;      // 1: on
 static int16_t Setpoint;     // 0.1 degrees Celsius
@@ -68,7 +68,7 @@ void ThermostatPowerOn(CO_VIRTUAL_BUS* bus, CO_VIRTUAL_CLOCK* clock) {
     Drivers.Nvm = &RamNvmDriver;
     Drivers.NvmCtx = &Memory;
     CONvmRamClear(&Memory);
-  } else {
+  } else {  // a power cycle: the RAM loses its contents, the memory does not
     CONodeStop(&Node);
     Setpoint = 0;
   }

@@ -9,9 +9,10 @@
 extern "C" {
 #endif
 
+// CAN driver (CO_NODE_EXT.Can). Its functions may be called in any thread.
 extern const CO_IF_CAN_DRV_EX BusDriver;
 
-// Returns a new controller: the context of the driver.
+// Returns a new controller on the bus, which is the context of the driver (CO_NODE_EXT.CanCtx).
 void* BusAttach(void);
 
 #ifdef __cplusplus
