@@ -10,24 +10,24 @@
 // type without limits, read and write the others. Order: Low and High are compared as 0 unsigned, 1 signed, 2 real.
 typedef struct {
   CO_OBJ_TYPE Type;
-  const CO_OBJ_TYPE* Plain;
+  const CO_OBJ_TYPE *Plain;
   uint32_t Low;
   uint32_t High;
   uint8_t Order;
 } limited32_t;
 
-static const limited32_t* limited32(const CO_OBJ* obj) { return (const limited32_t*)(const void*)obj->Type; }
+static const limited32_t *limited32(const CO_OBJ *obj) { return (const limited32_t *)(const void *)obj->Type; }
 
-static uint32_t limited32_size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
+static uint32_t limited32_size(CO_OBJ *obj, CO_NODE *node, uint32_t width) {
   return limited32(obj)->Plain->Size(obj, node, width);
 }
 
-static CO_ERR limited32_init(CO_OBJ* obj, CO_NODE* node) {
+static CO_ERR limited32_init(CO_OBJ *obj, CO_NODE *node) {
   const CO_OBJ_INIT_FUNC init = limited32(obj)->Plain->Init;
   return init == NULL ? CO_ERR_NONE : init(obj, node);
 }
 
-static CO_ERR limited32_read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+static CO_ERR limited32_read(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size) {
   return limited32(obj)->Plain->Read(obj, node, buffer, size);
 }
 
@@ -48,9 +48,9 @@ static uint32_t limited32_rank(uint32_t bits, uint32_t size, uint8_t order) {
   return (bits & highest) != 0u ? ~bits : bits | highest;
 }
 
-static CO_ERR limited32_write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const limited32_t* const type = limited32(obj);
-  const uint8_t* const byte = (const uint8_t*)buffer;
+static CO_ERR limited32_write(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size) {
+  const limited32_t *const type = limited32(obj);
+  const uint8_t *const byte = (const uint8_t *)buffer;
   uint32_t bits = 0;
   uint32_t rank;
   uint32_t n;
@@ -77,41 +77,40 @@ static CO_ERR limited32_write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t
 }
 
 // 2101h sub 0: -720 to 840
-static const limited32_t limits_1 = {
-    {limited32_size, limited32_init, limited32_read, limited32_write, NULL}, CO_TSIGNED16, 0xFFFFFD30u, 0x348u, 1};
+static const limited32_t limits_1 = {{limited32_size, limited32_init, limited32_read, limited32_write, NULL}, CO_TSIGNED16, 0xFFFFFD30u, 0x348u, 1};
 
-// A string in a storage group. Its length belongs to the group, too, and is copied to String before each access,
-// because the group may have been loaded since the last one.
+// A string in a storage group. Its length belongs to the group, too, and is copied to String before each access, because
+// the group may have been loaded since the last one.
 typedef struct {
   CO_OBJ_STR_RW String;
-  uint32_t* Length;
-  const CO_OBJ_TYPE* Plain;
+  uint32_t *Length;
+  const CO_OBJ_TYPE *Plain;
 } stored_string_t;
 
-static const CO_OBJ_TYPE* stored_string(CO_OBJ* obj) {
-  stored_string_t* const stored = (stored_string_t*)obj->Data;
+static const CO_OBJ_TYPE *stored_string(CO_OBJ *obj) {
+  stored_string_t *const stored = (stored_string_t *)obj->Data;
   stored->String.Size = *stored->Length;
   return stored->Plain;
 }
 
-static uint32_t stored_string_size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
+static uint32_t stored_string_size(CO_OBJ *obj, CO_NODE *node, uint32_t width) {
   return stored_string(obj)->Size(obj, node, width);
 }
 
-static CO_ERR stored_string_init(CO_OBJ* obj, CO_NODE* node) { return stored_string(obj)->Init(obj, node); }
+static CO_ERR stored_string_init(CO_OBJ *obj, CO_NODE *node) { return stored_string(obj)->Init(obj, node); }
 
-static CO_ERR stored_string_read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+static CO_ERR stored_string_read(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size) {
   return stored_string(obj)->Read(obj, node, buffer, size);
 }
 
-static CO_ERR stored_string_write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+static CO_ERR stored_string_write(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size) {
   const CO_ERR error = stored_string(obj)->Write(obj, node, buffer, size);
-  stored_string_t* const stored = (stored_string_t*)obj->Data;
+  stored_string_t *const stored = (stored_string_t *)obj->Data;
   *stored->Length = stored->String.Size;
   return error;
 }
 
-static CO_ERR stored_string_reset(CO_OBJ* obj, CO_NODE* node, uint32_t position) {
+static CO_ERR stored_string_reset(CO_OBJ *obj, CO_NODE *node, uint32_t position) {
   return stored_string(obj)->Reset(obj, node, position);
 }
 
@@ -123,48 +122,39 @@ static const uint8_t text_1008_0[] = "Lexican demo clock";
 clock_ram_t clock_ram;
 static const clock_ram_t clock_ram_default = {
     {{0, text_1008_0}},  // od_1008_0
-    {0u},                // od_1003_1
-    {0u},                // od_1003_2
-    {0u},                // od_1003_3
-    {0u},                // od_1003_4
-    {1u},                // od_1018_4
-    {0u},                // od_1001_0
-    {0u},                // od_1003_0
-    {0u},                // od_2100_1
-    {0u},                // od_2100_2
-    {0u},                // od_2100_3
-    {128u},              // od_1005_0
-    {0u},                // od_1006_0
-    {0u},                // od_100C_0
-    {1000u},             // od_1017_0
-    {1000u},             // od_1800_3
-    {0u},                // od_1800_5
-    {0u},                // od_100D_0
-    {255u},              // od_1400_2
-    {255u},              // od_1800_2
+    {0u},  // od_1003_1
+    {0u},  // od_1003_2
+    {0u},  // od_1003_3
+    {0u},  // od_1003_4
+    {1u},  // od_1018_4
+    {0u},  // od_1001_0
+    {0u},  // od_1003_0
+    {0u},  // od_2100_1
+    {0u},  // od_2100_2
+    {0u},  // od_2100_3
+    {128u},  // od_1005_0
+    {0u},  // od_1006_0
+    {0u},  // od_100C_0
+    {1000u},  // od_1017_0
+    {1000u},  // od_1800_3
+    {0u},  // od_1800_5
+    {0u},  // od_100D_0
+    {255u},  // od_1400_2
+    {255u},  // od_1800_2
 };
 
 clock_settings_t clock_settings;
 static const clock_settings_t clock_settings_default = {
     {0u},  // od_1020_1
     {0u},  // od_1020_2
-    0,     // od_2201_0_length
-    {0},   // od_2101_0
+    0,  // od_2201_0_length
+    {0},  // od_2101_0
     {""},  // od_2201_0
     {0},
 };
 
-static stored_string_t string_2201_0 = {
-    {0, 0, 32, (uint8_t*)clock_settings.od_2201_0}, &clock_settings.od_2201_0_length, CO_TVISIBLE_STRING};
-const CO_PARA clock_settings_para = {CLOCK_SETTINGS_OFFSET,
-                                     sizeof clock_settings,
-                                     &clock_settings,
-                                     &clock_settings_default,
-                                     CO_RESET_NODE,
-                                     NULL,
-                                     CO_PARA___E | CO_PARA_VERSION(CLOCK_SETTINGS_LAYOUT),
-                                     8,
-                                     0};
+static stored_string_t string_2201_0 = {{0, 0, 32, (uint8_t *)clock_settings.od_2201_0}, &clock_settings.od_2201_0_length, CO_TVISIBLE_STRING};
+const CO_PARA clock_settings_para = {CLOCK_SETTINGS_OFFSET, sizeof clock_settings, &clock_settings, &clock_settings_default, CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(CLOCK_SETTINGS_LAYOUT), 8, 0};
 
 static uint8_t has_defaults;  // CONodeInit() or clock_set_defaults() was called
 
@@ -175,7 +165,7 @@ void clock_set_defaults(void) {
 }
 
 // Sets variables to their default values. Called by CONodeInit() and at each NMT reset.
-static CO_ERR set_power_on_values(CO_OBJ* end, CO_NODE* node, uint32_t reset) {
+static CO_ERR set_power_on_values(CO_OBJ *end, CO_NODE *node, uint32_t reset) {
   // Order of the variables: first those that the network cannot write, which are set only once; then those that
   // "reset node" sets; then those that both resets set.
   const size_t written = reset == CO_RESET_NODE ? offsetof(clock_ram_t, od_2100_1) : offsetof(clock_ram_t, od_1005_0);
@@ -183,7 +173,7 @@ static CO_ERR set_power_on_values(CO_OBJ* end, CO_NODE* node, uint32_t reset) {
   (void)end;
   (void)node;
   (void)reset;
-  memcpy((uint8_t*)&clock_ram + first, (const uint8_t*)&clock_ram_default + first, sizeof clock_ram - first);
+  memcpy((uint8_t *)&clock_ram + first, (const uint8_t *)&clock_ram_default + first, sizeof clock_ram - first);
   has_defaults = 1;
   return CO_ERR_NONE;
 }
@@ -253,8 +243,7 @@ CO_OD_CHECK(clock_od);
 // Layout of the storage groups.
 static_assert(offsetof(clock_settings_t, od_1020_1) == 0 && sizeof clock_settings.od_1020_1 == 4, "od_1020_1");
 static_assert(offsetof(clock_settings_t, od_1020_2) == 4 && sizeof clock_settings.od_1020_2 == 4, "od_1020_2");
-static_assert(offsetof(clock_settings_t, od_2201_0_length) == 8 && sizeof clock_settings.od_2201_0_length == 4,
-              "od_2201_0_length");
+static_assert(offsetof(clock_settings_t, od_2201_0_length) == 8 && sizeof clock_settings.od_2201_0_length == 4, "od_2201_0_length");
 static_assert(offsetof(clock_settings_t, od_2101_0) == 12 && sizeof clock_settings.od_2101_0 == 2, "od_2101_0");
 static_assert(offsetof(clock_settings_t, od_2201_0) == 14 && sizeof clock_settings.od_2201_0 == 33, "od_2201_0");
 static_assert(sizeof(clock_settings_t) == 48, "clock_settings");

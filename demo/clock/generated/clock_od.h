@@ -94,8 +94,7 @@
 #define CLOCK_SDO_SERVER_PARAMETER_COB_ID_CLIENT_TO_SERVER CLOCK_1200_1
 #define CLOCK_1200_2 CO_DEV(0x1200, 0x02)  ///< SDO server parameter COB-ID server to client, UNSIGNED32 ro
 #define CLOCK_SDO_SERVER_PARAMETER_COB_ID_SERVER_TO_CLIENT CLOCK_1200_2
-#define CLOCK_1400_0 \
-  CO_DEV(0x1400, 0x00)  ///< RPDO communication parameter Highest sub-index supported, UNSIGNED8 const
+#define CLOCK_1400_0 CO_DEV(0x1400, 0x00)  ///< RPDO communication parameter Highest sub-index supported, UNSIGNED8 const
 #define CLOCK_RPDO_COMMUNICATION_PARAMETER_HIGHEST_SUB_INDEX_SUPPORTED CLOCK_1400_0
 #define CLOCK_1400_1 CO_DEV(0x1400, 0x01)  ///< RPDO communication parameter COB-ID, UNSIGNED32 ro
 #define CLOCK_RPDO_COMMUNICATION_PARAMETER_COB_ID CLOCK_1400_1
@@ -109,8 +108,7 @@
 #define CLOCK_RPDO_MAPPING_PARAMETER_MAPPED_OBJECT_2 CLOCK_1600_2
 #define CLOCK_1600_3 CO_DEV(0x1600, 0x03)  ///< RPDO mapping parameter Mapped object 3, UNSIGNED32 const
 #define CLOCK_RPDO_MAPPING_PARAMETER_MAPPED_OBJECT_3 CLOCK_1600_3
-#define CLOCK_1800_0 \
-  CO_DEV(0x1800, 0x00)  ///< TPDO communication parameter Highest sub-index supported, UNSIGNED8 const
+#define CLOCK_1800_0 CO_DEV(0x1800, 0x00)  ///< TPDO communication parameter Highest sub-index supported, UNSIGNED8 const
 #define CLOCK_TPDO_COMMUNICATION_PARAMETER_HIGHEST_SUB_INDEX_SUPPORTED CLOCK_1800_0
 #define CLOCK_1800_1 CO_DEV(0x1800, 0x01)  ///< TPDO communication parameter COB-ID, UNSIGNED32 ro
 #define CLOCK_TPDO_COMMUNICATION_PARAMETER_COB_ID CLOCK_1800_1
@@ -151,108 +149,36 @@ extern "C" {
 /// Variables that are not stored. CONodeInit() gives them their default values; NMT resets do so for those
 /// that the network can write.
 typedef struct clock_ram_t_ {
-  union {
-    CO_OBJ_STR od_1008_0;
-    CO_OBJ_STR manufacturer_device_name;
-  };  ///< Manufacturer device name, VISIBLE_STRING const
-  union {
-    uint32_t od_1003_1;
-    uint32_t pre_defined_error_field_standard_error_field_1;
-  };  ///< Pre-defined error field Standard error field 1, UNSIGNED32 ro
-  union {
-    uint32_t od_1003_2;
-    uint32_t pre_defined_error_field_standard_error_field_2;
-  };  ///< Pre-defined error field Standard error field 2, UNSIGNED32 ro
-  union {
-    uint32_t od_1003_3;
-    uint32_t pre_defined_error_field_standard_error_field_3;
-  };  ///< Pre-defined error field Standard error field 3, UNSIGNED32 ro
-  union {
-    uint32_t od_1003_4;
-    uint32_t pre_defined_error_field_standard_error_field_4;
-  };  ///< Pre-defined error field Standard error field 4, UNSIGNED32 ro
-  union {
-    uint32_t od_1018_4;
-    uint32_t identity_object_serial_number;
-  };  ///< Identity object Serial number, UNSIGNED32 ro
-  union {
-    uint8_t od_1001_0;
-    uint8_t error_register;
-  };  ///< Error register, UNSIGNED8 ro
-  union {
-    uint8_t od_1003_0;
-    uint8_t pre_defined_error_field_number_of_errors;
-  };  ///< Pre-defined error field Number of errors, UNSIGNED8 rw
-  union {
-    uint8_t od_2100_1;
-    uint8_t time_hour;
-  };  ///< Time Hour, UNSIGNED8 rw
-  union {
-    uint8_t od_2100_2;
-    uint8_t time_minute;
-  };  ///< Time Minute, UNSIGNED8 rw
-  union {
-    uint8_t od_2100_3;
-    uint8_t time_second;
-  };  ///< Time Second, UNSIGNED8 rw
-  union {
-    uint32_t od_1005_0;
-    uint32_t cob_id_sync_message;
-  };  ///< COB-ID SYNC message, UNSIGNED32 rw
-  union {
-    uint32_t od_1006_0;
-    uint32_t communication_cycle_period;
-  };  ///< Communication cycle period, UNSIGNED32 rw
-  union {
-    uint16_t od_100C_0;
-    uint16_t guard_time;
-  };  ///< Guard time, UNSIGNED16 rw
-  union {
-    uint16_t od_1017_0;
-    uint16_t producer_heartbeat_time;
-  };  ///< Producer heartbeat time, UNSIGNED16 rw
-  union {
-    uint16_t od_1800_3;
-    uint16_t tpdo_communication_parameter_inhibit_time;
-  };  ///< TPDO communication parameter Inhibit time, UNSIGNED16 rw
-  union {
-    uint16_t od_1800_5;
-    uint16_t tpdo_communication_parameter_event_timer;
-  };  ///< TPDO communication parameter Event timer, UNSIGNED16 rw
-  union {
-    uint8_t od_100D_0;
-    uint8_t life_time_factor;
-  };  ///< Life time factor, UNSIGNED8 rw
-  union {
-    uint8_t od_1400_2;
-    uint8_t rpdo_communication_parameter_transmission_type;
-  };  ///< RPDO communication parameter Transmission type, UNSIGNED8 rw
-  union {
-    uint8_t od_1800_2;
-    uint8_t tpdo_communication_parameter_transmission_type;
-  };  ///< TPDO communication parameter Transmission type, UNSIGNED8 rw
+  union { CO_OBJ_STR od_1008_0; CO_OBJ_STR manufacturer_device_name; };  ///< Manufacturer device name, VISIBLE_STRING const
+  union { uint32_t od_1003_1; uint32_t pre_defined_error_field_standard_error_field_1; };  ///< Pre-defined error field Standard error field 1, UNSIGNED32 ro
+  union { uint32_t od_1003_2; uint32_t pre_defined_error_field_standard_error_field_2; };  ///< Pre-defined error field Standard error field 2, UNSIGNED32 ro
+  union { uint32_t od_1003_3; uint32_t pre_defined_error_field_standard_error_field_3; };  ///< Pre-defined error field Standard error field 3, UNSIGNED32 ro
+  union { uint32_t od_1003_4; uint32_t pre_defined_error_field_standard_error_field_4; };  ///< Pre-defined error field Standard error field 4, UNSIGNED32 ro
+  union { uint32_t od_1018_4; uint32_t identity_object_serial_number; };  ///< Identity object Serial number, UNSIGNED32 ro
+  union { uint8_t od_1001_0; uint8_t error_register; };  ///< Error register, UNSIGNED8 ro
+  union { uint8_t od_1003_0; uint8_t pre_defined_error_field_number_of_errors; };  ///< Pre-defined error field Number of errors, UNSIGNED8 rw
+  union { uint8_t od_2100_1; uint8_t time_hour; };  ///< Time Hour, UNSIGNED8 rw
+  union { uint8_t od_2100_2; uint8_t time_minute; };  ///< Time Minute, UNSIGNED8 rw
+  union { uint8_t od_2100_3; uint8_t time_second; };  ///< Time Second, UNSIGNED8 rw
+  union { uint32_t od_1005_0; uint32_t cob_id_sync_message; };  ///< COB-ID SYNC message, UNSIGNED32 rw
+  union { uint32_t od_1006_0; uint32_t communication_cycle_period; };  ///< Communication cycle period, UNSIGNED32 rw
+  union { uint16_t od_100C_0; uint16_t guard_time; };  ///< Guard time, UNSIGNED16 rw
+  union { uint16_t od_1017_0; uint16_t producer_heartbeat_time; };  ///< Producer heartbeat time, UNSIGNED16 rw
+  union { uint16_t od_1800_3; uint16_t tpdo_communication_parameter_inhibit_time; };  ///< TPDO communication parameter Inhibit time, UNSIGNED16 rw
+  union { uint16_t od_1800_5; uint16_t tpdo_communication_parameter_event_timer; };  ///< TPDO communication parameter Event timer, UNSIGNED16 rw
+  union { uint8_t od_100D_0; uint8_t life_time_factor; };  ///< Life time factor, UNSIGNED8 rw
+  union { uint8_t od_1400_2; uint8_t rpdo_communication_parameter_transmission_type; };  ///< RPDO communication parameter Transmission type, UNSIGNED8 rw
+  union { uint8_t od_1800_2; uint8_t tpdo_communication_parameter_transmission_type; };  ///< TPDO communication parameter Transmission type, UNSIGNED8 rw
 } clock_ram_t;
 extern clock_ram_t clock_ram;
 
 /// Storage group SETTINGS, 1010h sub 1. CONodeInit() fills it.
 typedef struct clock_settings_t_ {
-  union {
-    uint32_t od_1020_1;
-    uint32_t verify_configuration_configuration_date;
-  };  ///< Verify configuration Configuration date, UNSIGNED32 rw
-  union {
-    uint32_t od_1020_2;
-    uint32_t verify_configuration_configuration_time;
-  };  ///< Verify configuration Configuration time, UNSIGNED32 rw
+  union { uint32_t od_1020_1; uint32_t verify_configuration_configuration_date; };  ///< Verify configuration Configuration date, UNSIGNED32 rw
+  union { uint32_t od_1020_2; uint32_t verify_configuration_configuration_time; };  ///< Verify configuration Configuration time, UNSIGNED32 rw
   uint32_t od_2201_0_length;
-  union {
-    int16_t od_2101_0;
-    int16_t time_zone;
-  };  ///< Time zone, INTEGER16 rw
-  union {
-    uint8_t od_2201_0[33];
-    uint8_t station_name[33];
-  };  ///< Station name, VISIBLE_STRING rw
+  union { int16_t od_2101_0; int16_t time_zone; };  ///< Time zone, INTEGER16 rw
+  union { uint8_t od_2201_0[33]; uint8_t station_name[33]; };  ///< Station name, VISIBLE_STRING rw
   uint8_t unused[1];
 } clock_settings_t;
 extern clock_settings_t clock_settings;
@@ -273,8 +199,7 @@ extern const CO_PARA clock_settings_para;
 #define CLOCK_PARA_PROGRAM 1u
 #endif
 #define CLOCK_SETTINGS_OFFSET CLOCK_PARA_BASE
-#define CLOCK_SETTINGS_END \
-  (CLOCK_SETTINGS_OFFSET + CO_PARA_SPACE(sizeof(clock_settings_t), CLOCK_PARA_UNIT, CLOCK_PARA_PROGRAM))
+#define CLOCK_SETTINGS_END (CLOCK_SETTINGS_OFFSET + CO_PARA_SPACE(sizeof(clock_settings_t), CLOCK_PARA_UNIT, CLOCK_PARA_PROGRAM))
 #define CLOCK_PARA_END CLOCK_SETTINGS_END  ///< behind the last group
 /// \}
 
