@@ -44,8 +44,8 @@ class Nested {
   uint32_t abort_;
 };
 
-// Clears the object of each SDO server channel whose entry is no longer at the same place in the dictionary, because
-// CODictInit() was called with another table. The server then aborts the transfer (0800 0022h).
+// Clears the object of each SDO server channel whose entry is no longer at the same address, because CODictInit() was
+// called with another table. The server then aborts the transfer (0800 0022h).
 void close_moved(CO_NODE& node);
 
 // Returns whether an SDO server channel other than by has the object open. by: null if every channel counts.

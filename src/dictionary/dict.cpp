@@ -33,17 +33,17 @@ uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
 
 namespace {
 
-// Returns the end mark if it has a type for power-on values, else null. The other members of an end mark with key 0 may
-// hold any values.
-CO_OBJ* typed_end(CO_OBJ* root, uint16_t num, uint16_t max) {
-  const bool is_typed = num < max && root[num].Key == CO_DEFAULTS_KEY && root[num].Type != nullptr;
-  return is_typed && root[num].Type->Reset != nullptr ? &root[num] : nullptr;
+// Returns the end mark if it lists power-on values (CO_DEFAULTS), else null. In an end mark with key 0 the members
+// besides Key may hold any values.
+CO_OBJ* end_with_defaults(CO_OBJ* root, uint16_t num, uint16_t max) {
+  const bool has_type = num < max && root[num].Key == CO_DEFAULTS_KEY && root[num].Type != nullptr;
+  return has_type && root[num].Type->Reset != nullptr ? &root[num] : nullptr;
 }
 
-// Reads or writes a value of width bytes through the type of its entry, from position 0. Returns CO_ERR_OBJ_SIZE if the
-// object has another length.
-CO_ERR access(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
-              CO_ERR (*run)(CO_OBJ&, CO_NODE_T&, void*, uint32_t)) {
+// Calls a function (obj::read, obj::write, …) for a value of width bytes; a stream is accessed from its beginning.
+// Returns CO_ERR_OBJ_SIZE if the object has another length.
+CO_ERR access_value(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
+                    CO_ERR (*function)(CO_OBJ&, CO_NODE_T&, void*, uint32_t)) {
   if (dict == nullptr || dict->Node == nullptr || value == nullptr) {
     return CO_ERR_BAD_ARG;
   }
@@ -55,7 +55,7 @@ CO_ERR access(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
     return CO_ERR_OBJ_SIZE;
   }
   const CO_ERR err = obj::seek(*found, *dict->Node, 0);
-  return err != CO_ERR_NONE ? err : run(*found, *dict->Node, value, width);
+  return err != CO_ERR_NONE ? err : function(*found, *dict->Node, value, width);
 }
 
 }  // namespace
@@ -69,8 +69,8 @@ void set_power_on_values(CO_NODE& node, CO_NMT_RESET type) {
 
 // Uses first_from(), which is slower than find() and needs no prepared search: called only after find() has failed.
 bool has_index(const CO_DICT& dict, uint32_t key) {
-  const uint32_t place = first_from(dict.Root, dict.Num, CO_DEV(CO_GET_IDX(key), 0));
-  return place < dict.Num && CO_GET_IDX(dict.Root[place].Key) == CO_GET_IDX(key);
+  const uint32_t position = first_from(dict.Root, dict.Num, CO_DEV(CO_GET_IDX(key), 0));
+  return position < dict.Num && CO_GET_IDX(dict.Root[position].Key) == CO_GET_IDX(key);
 }
 
 Initialised init_objects(CO_DICT& dict, CO_NODE& node) {
@@ -86,7 +86,7 @@ Initialised init_objects(CO_DICT& dict, CO_NODE& node) {
 }
 
 CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value) {
-  return access(&dict, key, &value, sizeof value, obj::read);
+  return access_value(&dict, key, &value, sizeof value, obj::read);
 }
 
 uint32_t read_cob_id(CO_DICT& dict, uint32_t key, uint32_t otherwise) {
@@ -98,11 +98,11 @@ uint32_t read_cob_id(CO_DICT& dict, uint32_t key, uint32_t otherwise) {
 }
 
 CO_ERR read_u16(CO_DICT& dict, uint32_t key, uint16_t& value) {
-  return access(&dict, key, &value, sizeof value, obj::read);
+  return access_value(&dict, key, &value, sizeof value, obj::read);
 }
 
 CO_ERR write_u32(CO_DICT& dict, uint32_t key, uint32_t value) {
-  return access(&dict, key, &value, sizeof value, obj::write);
+  return access_value(&dict, key, &value, sizeof value, obj::write);
 }
 
 }  // namespace co::dict
@@ -119,7 +119,7 @@ int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   cod->Node = node;
   cod->Root = root;
   cod->Num = dict::count_entries(root, max);
-  cod->End = dict::typed_end(root, cod->Num, max);
+  cod->End = dict::end_with_defaults(root, cod->Num, max);
   const CO_ERR err = dict::check(*cod);
   if (err != CO_ERR_NONE) {
     cod->Num = 0;
@@ -127,7 +127,7 @@ int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   if (USE_FAST_PATHS != 0 && cod->Num != 0) {
     dict::prepare_search(*cod);
   }
-  access::close_moved(*node);
+  access::close_moved(*node);  // SDO transfers whose entry is no longer at the same address
   event::defer(*node, event::remap);
   event::run_deferred(*node);
   if (err != CO_ERR_NONE) {
@@ -154,27 +154,27 @@ CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key) {
 }
 
 CO_ERR CODictRdByte(CO_DICT* cod, uint32_t key, uint8_t* val) {
-  return dict::access(cod, key, val, sizeof *val, obj::read);
+  return dict::access_value(cod, key, val, sizeof *val, obj::read);
 }
 
 CO_ERR CODictRdWord(CO_DICT* cod, uint32_t key, uint16_t* val) {
-  return dict::access(cod, key, val, sizeof *val, obj::read);
+  return dict::access_value(cod, key, val, sizeof *val, obj::read);
 }
 
 CO_ERR CODictRdLong(CO_DICT* cod, uint32_t key, uint32_t* val) {
-  return dict::access(cod, key, val, sizeof *val, obj::read);
+  return dict::access_value(cod, key, val, sizeof *val, obj::read);
 }
 
 CO_ERR CODictWrByte(CO_DICT* cod, uint32_t key, uint8_t val) {
-  return dict::access(cod, key, &val, sizeof val, obj::write_for_application);
+  return dict::access_value(cod, key, &val, sizeof val, obj::write_for_application);
 }
 
 CO_ERR CODictWrWord(CO_DICT* cod, uint32_t key, uint16_t val) {
-  return dict::access(cod, key, &val, sizeof val, obj::write_for_application);
+  return dict::access_value(cod, key, &val, sizeof val, obj::write_for_application);
 }
 
 CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val) {
-  return dict::access(cod, key, &val, sizeof val, obj::write_for_application);
+  return dict::access_value(cod, key, &val, sizeof val, obj::write_for_application);
 }
 
 CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len) {

@@ -27,7 +27,8 @@ using namespace co;
 
 namespace {
 
-bool is_complete(const CO_OBJ* obj, const CO_NODE_T* node) {
+// Returns whether an API function can access the object: it has a type, and no argument is null.
+bool is_accessible(const CO_OBJ* obj, const CO_NODE_T* node) {
   return obj != nullptr && obj->Type != nullptr && node != nullptr;
 }
 
@@ -36,11 +37,11 @@ bool is_complete(const CO_OBJ* obj, const CO_NODE_T* node) {
 extern "C" {
 
 uint32_t COObjGetSize(CO_OBJ* obj, CO_NODE_T* node, uint32_t width) {
-  return is_complete(obj, node) ? obj::size(*obj, *node, width) : 0;
+  return is_accessible(obj, node) ? obj::size(*obj, *node, width) : 0;
 }
 
 CO_ERR COObjInit(CO_OBJ* obj, CO_NODE_T* node) {
-  if (!is_complete(obj, node)) {
+  if (!is_accessible(obj, node)) {
     return CO_ERR_BAD_ARG;
   }
   return obj->Type->Init == nullptr ? CO_ERR_NONE : obj->Type->Init(obj, node);
@@ -48,7 +49,7 @@ CO_ERR COObjInit(CO_OBJ* obj, CO_NODE_T* node) {
 
 #if USE_OBJ_EX
 CO_ERR COObjTypeExReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
-  if (!is_complete(obj, node)) {
+  if (!is_accessible(obj, node)) {
     return CO_ERR_BAD_ARG;
   }
   const CO_OBJ_TYPE_EX* const type = obj::extended(*obj);
@@ -57,16 +58,16 @@ CO_ERR COObjTypeExReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
 #endif
 
 CO_ERR COObjReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
-  return is_complete(obj, node) ? obj::seek(*obj, *node, para) : CO_ERR_BAD_ARG;
+  return is_accessible(obj, node) ? obj::seek(*obj, *node, para) : CO_ERR_BAD_ARG;
 }
 
 CO_ERR COObjRdBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
-  return is_complete(obj, node) && buffer != nullptr ? obj::read(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+  return is_accessible(obj, node) && buffer != nullptr ? obj::read(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
 }
 
 CO_ERR COObjWrBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
-  return is_complete(obj, node) && buffer != nullptr ? obj::write_for_application(*obj, *node, buffer, size)
-                                                     : CO_ERR_BAD_ARG;
+  return is_accessible(obj, node) && buffer != nullptr ? obj::write_for_application(*obj, *node, buffer, size)
+                                                       : CO_ERR_BAD_ARG;
 }
 
 CO_ERR COObjRdValue(CO_OBJ* obj, CO_NODE_T* node, void* value, uint8_t width) {

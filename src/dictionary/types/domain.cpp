@@ -10,15 +10,16 @@ namespace {
 
 using co::stream::clip;
 
-// Returns the domain of an entry; null: the entry has no domain, or the domain no memory.
-CO_OBJ_DOM* usable(const CO_OBJ& obj) {
+// Returns the domain of an entry; null: the entry has no domain, or the domain has no memory.
+CO_OBJ_DOM* find_domain(const CO_OBJ& obj) {
   auto* const domain = co::data_of<CO_OBJ_DOM>(obj);
   return domain == nullptr || domain->Start == nullptr ? nullptr : domain;
 }
 
-// A download may be shorter than the domain: returns its length (width) then.
+// Returns the length in bytes of an upload (width 0): the size of the domain. Returns the length nearest to width that
+// a download may have: a download may be shorter than the domain.
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t width) {
-  const CO_OBJ_DOM* const domain = usable(*obj);
+  const CO_OBJ_DOM* const domain = find_domain(*obj);
   if (domain == nullptr) {
     return 0;
   }
@@ -26,7 +27,7 @@ uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t width) {
 }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
-  CO_OBJ_DOM* const domain = usable(*obj);
+  CO_OBJ_DOM* const domain = find_domain(*obj);
   if (domain == nullptr) {
     return CO_ERR_BAD_ARG;
   }
@@ -37,7 +38,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  CO_OBJ_DOM* const domain = usable(*obj);
+  CO_OBJ_DOM* const domain = find_domain(*obj);
   if (domain == nullptr) {
     return CO_ERR_BAD_ARG;
   }

@@ -11,37 +11,38 @@ namespace co::integer {
 namespace {
 
 // Reads a number of 1, 2 or 4 bytes from a variable of the same size; with flag N the node-ID is added.
-inline CO_ERR read_word(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned bytes) {
-  const void* const place = place_of(obj, bytes);
-  if (place == nullptr) {
+inline CO_ERR read_number(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned bytes) {
+  const void* const address = address_of_value(obj, bytes);
+  if (address == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  store(buffer, load<uint32_t>(place, bytes) + node_id_of(obj, node), bytes);
+  store(buffer, load<uint32_t>(address, bytes) + node_id_of(obj, node), bytes);
   return CO_ERR_NONE;
 }
 
 // Writes a number of 1, 2 or 4 bytes; with flag N the node-ID is subtracted.
-inline CO_ERR write_word(CO_OBJ& obj, CO_NODE& node, const void* buffer, unsigned bytes) {
+inline CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const void* buffer, unsigned bytes) {
   const uint32_t value = load<uint32_t>(buffer, bytes) - node_id_of(obj, node);
   return set_value<uint32_t>(obj, node, value & (UINT32_MAX >> (32U - 8U * bytes)), bytes);
 }
 
+// Functions of a type with a value of 1, 2 or 4 bytes, in a variable of the same size.
 template <uint8_t bytes>
-struct Word {
+struct Number {
   static constexpr rules::Rule rule = rules::integer(bytes);
 
-  static uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj, bytes) == nullptr ? 0 : bytes; }
+  static uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return address_of_value(*obj, bytes) == nullptr ? 0 : bytes; }
   static CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-    return size == bytes ? read_word(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+    return size == bytes ? read_number(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
   }
   static CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-    return size == bytes ? write_word(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+    return size == bytes ? write_number(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
   }
   static constexpr CO_OBJ_TYPE table = {size, dict::checked_by<rule>, read, write, nullptr};
 };
 
-using Byte = Word<1>;
-using Real32 = Word<4>;
+using Byte = Number<1>;
+using Real32 = Number<4>;
 
 CO_ERR write_boolean(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size == 1 && *static_cast<const uint8_t*>(buffer) > 1) {
@@ -64,9 +65,9 @@ using namespace co::integer;
 extern "C" {
 
 const CO_OBJ_TYPE COTInt8 = Byte::table;
-const CO_OBJ_TYPE COTInt16 = Word<2>::table;
-const CO_OBJ_TYPE COTInt32 = Word<4>::table;
-// Flag N has no meaning for these types, and is refused.
+const CO_OBJ_TYPE COTInt16 = Number<2>::table;
+const CO_OBJ_TYPE COTInt32 = Number<4>::table;
+// The rules of these types refuse flag N, which has no meaning for them.
 const CO_OBJ_TYPE COTReal32 = {Real32::size, dict::checked_by<rules::variable>, Real32::read, Real32::write, nullptr};
 const CO_OBJ_TYPE COTBoolean = {Byte::size, dict::checked_by<rules::boolean>, Byte::read, write_boolean, nullptr};
 

@@ -33,7 +33,9 @@ const volatile typename Aliasing<T>::type& as(const void* address) {
 }
 
 // Returns the offset of byte n, counted from the lowest, in a number in the byte order of the CPU.
-constexpr unsigned place_of_byte(unsigned n, unsigned bytes) { return wire::host_is_little_endian ? n : bytes - 1 - n; }
+constexpr unsigned offset_of_byte(unsigned n, unsigned bytes) {
+  return wire::host_is_little_endian ? n : bytes - 1 - n;
+}
 
 // Reads a number, at any alignment: in one access where its alignment allows it, so that an interrupt sees the old or
 // the new value.
@@ -50,7 +52,7 @@ inline T load(const void* from, unsigned bytes) {
   }
   T value = 0;
   for (unsigned n = bytes; n != 0; --n) {
-    value = static_cast<T>(value << 8U) | static_cast<const uint8_t*>(from)[place_of_byte(n - 1, bytes)];
+    value = static_cast<T>(value << 8U) | static_cast<const uint8_t*>(from)[offset_of_byte(n - 1, bytes)];
   }
   return value;
 }
@@ -66,7 +68,7 @@ inline void store(void* to, T value, unsigned bytes) {
     as<uint16_t>(to) = static_cast<uint16_t>(value);
   } else {
     for (unsigned n = 0; n < bytes; ++n, value = static_cast<T>(value >> 8U)) {
-      static_cast<uint8_t*>(to)[place_of_byte(n, bytes)] = static_cast<uint8_t>(value);
+      static_cast<uint8_t*>(to)[offset_of_byte(n, bytes)] = static_cast<uint8_t>(value);
     }
   }
 }
@@ -87,7 +89,7 @@ inline void store_aligned(void* to, uint32_t value, unsigned bytes) {
 
 // Returns the address of an entry's value of storage bytes; with flag D the value is in the least significant bytes of
 // Data.
-inline void* place_of(CO_OBJ& obj, unsigned storage) {
+inline void* address_of_value(CO_OBJ& obj, unsigned storage) {
   const size_t above = wire::host_is_little_endian || storage >= sizeof obj.Data ? 0 : sizeof obj.Data - storage;
   return CO_IS_DIRECT(obj.Key) != 0 ? reinterpret_cast<uint8_t*>(&obj.Data) + above : data_of<void>(obj);
 }
@@ -109,24 +111,24 @@ inline uint32_t node_id_of(const CO_OBJ& obj, const CO_NODE& node) {
 
 // Stores a value in the variable of an entry. With flag A (event-driven TPDOs) a value that is stored already is not
 // written, and any other is reported as a change. With flag D all bytes of Data are written. storage: bytes of the
-// variable, which may be more than those of the number
+// variable, which may be more than those of the number.
 template <class T>
 inline CO_ERR set_value(CO_OBJ& obj, CO_NODE& node, T value, unsigned storage) {
-  void* const place = place_of(obj, storage);
-  if (place == nullptr) {
+  void* const address = address_of_value(obj, storage);
+  if (address == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  if (!port::is_writable(node, place, storage)) {
+  if (!port::is_writable(node, address, storage)) {
     return CO_ERR_OBJ_ACC;
   }
   const bool is_watched = CO_IS_ASYNC(obj.Key) != 0;
-  if (is_watched && load<T>(place, storage) == value) {
+  if (is_watched && load<T>(address, storage) == value) {
     return CO_ERR_NONE;
   }
   if (CO_IS_DIRECT(obj.Key) != 0) {
     obj.Data = static_cast<uintptr_t>(value);
   } else {
-    store<T>(place, value, storage);
+    store<T>(address, value, storage);
   }
   if (is_watched) {
     event::change_object(node, obj);

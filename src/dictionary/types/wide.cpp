@@ -23,11 +23,11 @@ constexpr uint64_t extend(uint64_t value, const Format& format) {
 }
 
 inline CO_ERR read_wide(CO_OBJ& obj, const CO_NODE& node, void* buffer, const Format& format) {
-  const void* const place = place_of(obj, format.storage);
-  if (place == nullptr) {
+  const void* const address = address_of_value(obj, format.storage);
+  if (address == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  store(buffer, load<uint64_t>(place, format.storage) + node_id_of(obj, node), format.bytes);
+  store(buffer, load<uint64_t>(address, format.storage) + node_id_of(obj, node), format.bytes);
   return CO_ERR_NONE;
 }
 
@@ -41,7 +41,9 @@ struct Wide {
   static constexpr Format format = {bytes, storage, is_signed};
   static constexpr rules::Rule rule = rules::integer(storage);
 
-  static uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj, storage) == nullptr ? 0 : bytes; }
+  static uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) {
+    return address_of_value(*obj, storage) == nullptr ? 0 : bytes;
+  }
   static CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return size == bytes ? read_wide(*obj, *node, buffer, format) : CO_ERR_BAD_ARG;
   }
@@ -70,7 +72,7 @@ const CO_OBJ_TYPE COTSigned24 = Wide<3, 4, true>::table;
 const CO_OBJ_TYPE COTSigned40 = Wide<5, 8, true>::table;
 const CO_OBJ_TYPE COTSigned48 = Wide<6, 8, true>::table;
 const CO_OBJ_TYPE COTSigned56 = Wide<7, 8, true>::table;
-// Flag N has no meaning for this type, and is refused.
+// The rule of this type refuses flag N, which has no meaning for it.
 const CO_OBJ_TYPE COTReal64 = {Real64::size, dict::checked_by<rules::variable>, Real64::read, Real64::write, nullptr};
 
 }  // extern "C"
