@@ -55,8 +55,9 @@ unsigned storage_of(const CO_OBJ_TYPE* type) {
   return is_wide(type) ? longest_number : 0;
 }
 
-// Returns the address of the value of a number; with flag D the value is stored in the lowest bytes of Data.
-void* place_of(CO_OBJ& obj, unsigned storage) {
+// Returns the address of the value of a number whose variable has storage bytes; null: storage is 0. With flag D the
+// value is in the least significant bytes of Data.
+void* address_of_number(CO_OBJ& obj, unsigned storage) {
   if (storage == 0) {
     return nullptr;
   }
@@ -67,6 +68,7 @@ void* place_of(CO_OBJ& obj, unsigned storage) {
   return reinterpret_cast<uint8_t*>(&obj.Data) + above;
 }
 
+// Returns the permissions of SDO and PDO as bits ODA_….
 OD_attr_t rights_of(const CO_OBJ& obj) {
   const bool mappable = CO_IS_PDOMAP(obj.Key) != 0;
   unsigned rights = 0;
@@ -85,6 +87,7 @@ uint32_t size_of(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type) {
   return size == CO_OBJ_SIZE_UNKNOWN ? 0 : size;
 }
 
+// Returns the kind of an entry whose type has a Reset function.
 Kind kind_of_stream(const CO_OBJ_TYPE* type) {
   if (type == &COTVisibleString || type == &COTUnicodeString) {
     return Kind::text;
@@ -95,18 +98,18 @@ Kind kind_of_stream(const CO_OBJ_TYPE* type) {
   if (type == &COTString) {
     return Kind::constant_text;
   }
-  return type == &COTDomain ? Kind::domain : Kind::foreign;
+  return type == &COTDomain ? Kind::domain : Kind::application_stream;
 }
 
-void add(Properties& shape, OD_attributes_t attribute) {
-  shape.attribute = static_cast<OD_attr_t>(shape.attribute | attribute);
+void add_attribute(Properties& properties, OD_attributes_t attribute) {
+  properties.attribute = static_cast<OD_attr_t>(properties.attribute | attribute);
 }
 
-void describe_string(const CO_OBJ& obj, Properties& shape) {
+void describe_string(const CO_OBJ& obj, Properties& properties) {
   const auto* const string = data_of<const CO_OBJ_STR_RW>(obj);
   if (string != nullptr) {
-    shape.memory = string->Start;
-    shape.length = string->Capacity;
+    properties.memory = string->Start;
+    properties.length = string->Capacity;
   }
 }
 
@@ -123,12 +126,12 @@ Kind kind_of(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE* type) {
 }  // namespace
 
 bool can_seek(const CO_OBJ_TYPE& type) {
-  const CO_OBJ_TYPE_EX* const transfer = transfer_type(&type);
+  const CO_OBJ_TYPE_EX* const transfer = extended_type(&type);
   return transfer == nullptr ? type.Reset != nullptr : transfer->Reset != nullptr;
 }
 
 CO_ERR seek(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type, uint32_t position) {
-  const CO_OBJ_TYPE_EX* const transfer = transfer_type(&type);
+  const CO_OBJ_TYPE_EX* const transfer = extended_type(&type);
   const CO_OBJ_RESET_FUNC reset = transfer == nullptr ? type.Reset : transfer->Reset;
   return reset == nullptr ? CO_ERR_NONE : reset(&obj, &node, position);
 }
@@ -139,42 +142,44 @@ unsigned bytes_of_character(const CO_OBJ_TYPE* original) {
 
 Properties properties_of(CO_OBJ& obj, CO_NODE& node) {
   const CO_OBJ_TYPE* const type = original_type(obj);
-  Properties shape = {kind_of(obj, node, type), type, nullptr, 0, rights_of(obj)};
-  switch (shape.kind) {
-    case Kind::none: shape.length = static_cast<OD_size_t>(uintptr_t{obj.Data}); break;
-    case Kind::text: add(shape, ODA_STR); [[fallthrough]];
-    case Kind::octets: describe_string(obj, shape); break;
+  Properties properties = {kind_of(obj, node, type), type, nullptr, 0, rights_of(obj)};
+  switch (properties.kind) {
+    case Kind::none:  // without original type, Data is the length
+      properties.length = static_cast<OD_size_t>(uintptr_t{obj.Data});
+      break;
+    case Kind::text: add_attribute(properties, ODA_STR); [[fallthrough]];
+    case Kind::octets: describe_string(obj, properties); break;
     case Kind::constant_text:
-      add(shape, ODA_STR);
+      add_attribute(properties, ODA_STR);
       if (const auto* const text = data_of<const CO_OBJ_STR>(obj); text != nullptr) {
-        shape.memory = const_cast<uint8_t*>(text->Start);
+        properties.memory = const_cast<uint8_t*>(text->Start);
       }
-      shape.length = size_of(obj, node, *shape.type);
+      properties.length = size_of(obj, node, *properties.type);
       break;
     case Kind::domain:
       if (const auto* const domain = data_of<const CO_OBJ_DOM>(obj); domain != nullptr) {
-        shape.memory = domain->Start;
-        shape.length = domain->Size;
+        properties.memory = domain->Start;
+        properties.length = domain->Size;
       }
       break;
-    default:
-      shape.memory = place_of(obj, storage_of(shape.type));
-      shape.length = size_of(obj, node, *shape.type);
+    default:  // number, long_value, application_stream
+      properties.memory = address_of_number(obj, storage_of(properties.type));
+      properties.length = size_of(obj, node, *properties.type);
       break;
   }
-  const bool is_number = shape.kind == Kind::number || obj.Type == &ODTNumber.Ex.Type;
-  if (is_number && shape.length > 1) {
-    add(shape, ODA_MB);
+  const bool is_number = properties.kind == Kind::number || obj.Type == &ODTNumber.Ex.Type;
+  if (is_number && properties.length > 1) {
+    add_attribute(properties, ODA_MB);
   }
-  return shape;
+  return properties;
 }
 
 OD_stream_t stream_of(CO_OBJ& obj, CO_NODE& node) {
-  const Properties shape = properties_of(obj, node);
+  const Properties properties = properties_of(obj, node);
   OD_stream_t stream = {};
-  stream.dataOrig = shape.memory;
-  stream.dataLength = shape.length;
-  stream.attribute = shape.attribute;
+  stream.dataOrig = properties.memory;
+  stream.dataLength = properties.length;
+  stream.attribute = properties.attribute;
   stream.index = CO_GET_IDX(obj.Key);
   stream.subIndex = CO_GET_SUB(obj.Key);
   stream.Entry = &obj;

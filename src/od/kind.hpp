@@ -9,23 +9,23 @@ namespace co::od {
 
 // Kind of an entry.
 enum class Kind : uint8_t {
-  number,         // a value of up to 8 bytes
-  long_value,     // a longer value, read or written in one call
-  text,           // a CO_OBJ_STR_RW that ends at its first zero
-  octets,         // a CO_OBJ_STR_RW
-  constant_text,  // a CO_OBJ_STR
-  domain,         // a CO_OBJ_DOM
-  foreign,        // a stream of the application
-  none            // no original type: only an extension can access it
+  number,              // a value of up to 8 bytes
+  long_value,          // a longer value, read or written in one call
+  text,                // a CO_OBJ_STR_RW that ends at its first zero
+  octets,              // a CO_OBJ_STR_RW
+  constant_text,       // a CO_OBJ_STR
+  domain,              // a CO_OBJ_DOM
+  application_stream,  // a stream whose type the application defines: only its functions access the data
+  none                 // no original type: only an extension can access it
 };
 
 // Properties of an entry.
 struct Properties {
   Kind kind;
   const CO_OBJ_TYPE* type;  // original type; null: none
-  void* memory;             // null: none, or only the type has its address
-  OD_size_t length;         // as OD_stream_t.dataLength
-  OD_attr_t attribute;
+  void* memory;             // value of the entry; null: none, or only the type has its address
+  OD_size_t length;         // bytes, for OD_stream_t.dataLength; 0: not known
+  OD_attr_t attribute;      // bits ODA_…, for OD_stream_t.attribute
 };
 
 #if USE_OD
@@ -43,12 +43,12 @@ struct Properties {
   return type == nullptr ? obj.Type : type->Original;
 }
 
-// Returns an original type as extended type (CO_OBJ_TYPE_EX); null if it is none.
-[[nodiscard]] inline const CO_OBJ_TYPE_EX* transfer_type(const CO_OBJ_TYPE* type) {
+// Returns an original type as CO_OBJ_TYPE_EX; null if it is no such type.
+[[nodiscard]] inline const CO_OBJ_TYPE_EX* extended_type(const CO_OBJ_TYPE* type) {
   return type != nullptr && type->Reset == COObjTypeExReset ? reinterpret_cast<const CO_OBJ_TYPE_EX*>(type) : nullptr;
 }
-// Return whether an original type can set a position, and set it. They call the Reset function of an extended type
-// directly: COObjTypeExReset() would look up the entry's type, which is the OD_TYPE.
+// can_seek() returns whether an original type can set a position, seek() sets it. For a CO_OBJ_TYPE_EX both use its own
+// Reset function: COObjTypeExReset() would use the type of the entry, which is the OD_TYPE.
 [[nodiscard]] bool can_seek(const CO_OBJ_TYPE& type);
 [[nodiscard]] CO_ERR seek(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type, uint32_t position);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OD_readOriginal() and OD_writeOriginal(): access to objects through their original types, in pieces of any length.
-// Kind::foreign is a stream whose type the application defines: only the functions of its type access its data.
+// Kind::application_stream is a stream whose type the application defines: only the functions of its type access its
+// data.
 #include "base/events.hpp"
 #include "dictionary/access.hpp"
 #include "dictionary/types/place.hpp"
@@ -30,12 +31,12 @@ struct Piece {
 bool is_last(const Piece& piece) { return piece.position + piece.bytes == piece.end; }
 
 // Returns whether an access can continue at dataOffset: before the end or, if the value is empty, at its end.
-bool is_inside(const OD_stream_t& stream, OD_size_t end) {
+bool can_continue(const OD_stream_t& stream, OD_size_t end) {
   return stream.dataOffset < end || (end == 0 && stream.dataOffset == 0);
 }
 
-// Advances an access behind a piece that was read or written. Returns ODR_OK after the last piece: the next access
-// starts at the beginning.
+// Sets the position of an access behind a piece that was read or written. Returns ODR_OK after the last piece, and sets
+// the position to the beginning for the next access; else ODR_PARTIAL. passed: bytes of the piece.
 ODR_t advance_access(OD_stream_t& stream, const Piece& piece, OD_size_t& passed) {
   passed = piece.bytes;
   stream.dataOffset = is_last(piece) ? 0 : piece.position + piece.bytes;
@@ -65,17 +66,17 @@ uint32_t size_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type) {
   return type.Size == nullptr ? 0 : type.Size(stream.Entry, stream.Owner, 0);
 }
 
-// Returns whether an SDO transfer has the stream of the application open, which allows one access at a time. The
-// transfer that is being served does not count: it may be the caller.
-bool is_foreign_and_taken(const OD_stream_t& stream) {
+// Returns whether an SDO transfer has the object open, other than the one that is being served, which may be the
+// caller. A stream of the application allows one access at a time.
+bool is_in_sdo_transfer(const OD_stream_t& stream) {
   const CO_NODE& node = *stream.Owner;
   return node.RequestObj != stream.Entry && access::is_open(node, *stream.Entry, nullptr);
 }
 
-// Sets the position of a stream of the application. At position 0 opens the stream, as an SDO transfer does: calls the
-// Read or Write function with length 0.
+// Sets the position of a stream of the application to dataOffset. At position 0 also opens the stream, like an SDO
+// transfer: calls the Read or Write function with length 0.
 ODR_t open(const OD_stream_t& stream, const CO_OBJ_TYPE& type, CO_OBJ_READ_FUNC function) {
-  if (is_foreign_and_taken(stream)) {
+  if (is_in_sdo_transfer(stream)) {
     return ODR_DATA_DEV_STATE;
   }
   if (stream.dataOffset != 0 && !can_seek(type)) {
@@ -90,9 +91,9 @@ ODR_t open(const OD_stream_t& stream, const CO_OBJ_TYPE& type, CO_OBJ_READ_FUNC 
 }
 
 // Returns whether the original type cannot access the object: there is no original type, or no memory.
-bool is_missing(const Properties& shape) {
-  const bool is_memory = shape.kind >= Kind::text && shape.kind <= Kind::domain;
-  return shape.kind == Kind::none || (is_memory && shape.memory == nullptr);
+bool is_inaccessible(const Properties& properties) {
+  const bool is_memory = properties.kind >= Kind::text && properties.kind <= Kind::domain;
+  return properties.kind == Kind::none || (is_memory && properties.memory == nullptr);
 }
 
 // Reading -------------------------------------------------------------------------------------------------------------
@@ -134,7 +135,8 @@ ODR_t read_long(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece&
 
 // Reads the next piece of a stream of the application. Its size may become known only when its end has been read: Size
 // is called before and after the read.
-ODR_t read_foreign(OD_stream_t& stream, const CO_OBJ_TYPE& type, uint8_t* to, OD_size_t count, OD_size_t& passed) {
+ODR_t read_application_stream(OD_stream_t& stream, const CO_OBJ_TYPE& type, uint8_t* to, OD_size_t count,
+                              OD_size_t& passed) {
   const ODR_t opened = open(stream, type, type.Read);
   if (opened != ODR_OK) {
     return opened;
@@ -178,24 +180,24 @@ OD_size_t end_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type, Kind kind) 
 }
 
 ODR_t read_object(OD_stream_t& stream, uint8_t* to, OD_size_t count, OD_size_t& passed) {
-  const Properties shape = properties_of(*stream.Entry, *stream.Owner);
-  if (is_missing(shape)) {
+  const Properties properties = properties_of(*stream.Entry, *stream.Owner);
+  if (is_inaccessible(properties)) {
     return ODR_SUB_NOT_EXIST;
   }
-  const CO_OBJ_TYPE& type = *shape.type;
+  const CO_OBJ_TYPE& type = *properties.type;
   if (type.Read == nullptr) {
     return ODR_WRITEONLY;
   }
-  if (shape.kind == Kind::foreign) {
-    return read_foreign(stream, type, to, count, passed);
+  if (properties.kind == Kind::application_stream) {
+    return read_application_stream(stream, type, to, count, passed);
   }
-  const OD_size_t end = end_of(stream, type, shape.kind);
-  if (!is_inside(stream, end)) {
+  const OD_size_t end = end_of(stream, type, properties.kind);
+  if (!can_continue(stream, end)) {
     return ODR_DEV_INCOMPAT;
   }
   const OD_size_t left = end - stream.dataOffset;
   const Piece piece = {stream.dataOffset, count < left ? count : left, end};
-  const ODR_t result = read_piece(stream, type, shape.kind, piece, to);
+  const ODR_t result = read_piece(stream, type, properties.kind, piece, to);
   return result != ODR_OK ? result : advance_access(stream, piece, passed);
 }
 
@@ -217,8 +219,8 @@ ODR_t read_memory(OD_stream_t& stream, uint8_t* to, OD_size_t count, OD_size_t& 
 // Writes a piece of a number; its other bytes keep their values.
 CO_ERR write_number(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, const uint8_t* from) {
   uint8_t value[longest_number] = {};
-  const bool whole = piece.position == 0 && is_last(piece);
-  CO_ERR err = whole ? CO_ERR_NONE : call(type.Read, stream, value, piece.end);
+  const bool is_complete = piece.position == 0 && is_last(piece);
+  CO_ERR err = is_complete ? CO_ERR_NONE : call(type.Read, stream, value, piece.end);
   if (err == CO_ERR_NONE) {
     wire::copy(value + piece.position, from, piece.bytes);
     err = call(type.Write, stream, value, piece.end);
@@ -258,40 +260,41 @@ ODR_t write_long(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece
                    err != CO_ERR_NONE ? err : write_copy(type, stream, from, piece.bytes));
 }
 
-ODR_t write_foreign(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, const uint8_t* from) {
+ODR_t write_application_stream(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece,
+                               const uint8_t* from) {
   const ODR_t opened = open(stream, type, type.Write);
   return opened != ODR_OK ? opened
                           : result_of(*stream.Owner, *stream.Entry, write_copy(type, stream, from, piece.bytes));
 }
 
-ODR_t write_piece(const OD_stream_t& stream, const Properties& shape, const Piece& piece, const uint8_t* from) {
-  const CO_OBJ_TYPE& type = *shape.type;
-  switch (shape.kind) {
+ODR_t write_piece(const OD_stream_t& stream, const Properties& properties, const Piece& piece, const uint8_t* from) {
+  const CO_OBJ_TYPE& type = *properties.type;
+  switch (properties.kind) {
     case Kind::number: return result_of(*stream.Owner, *stream.Entry, write_number(stream, type, piece, from));
     case Kind::text: return result_of(*stream.Owner, *stream.Entry, write_text(stream, type, piece, from));
     case Kind::long_value: return write_long(stream, type, piece, from);
-    case Kind::foreign: return write_foreign(stream, type, piece, from);
+    case Kind::application_stream: return write_application_stream(stream, type, piece, from);
     default: return result_of(*stream.Owner, *stream.Entry, write_stream(stream, type, piece, from));
   }
 }
 
-bool is_in_memory(const Properties& shape) {
-  return shape.kind == Kind::text || shape.kind == Kind::octets || shape.kind == Kind::domain;
+bool is_in_memory(const Properties& properties) {
+  return properties.kind == Kind::text || properties.kind == Kind::octets || properties.kind == Kind::domain;
 }
 
 // Returns the bytes that the value will have: dataLength if the caller has reduced it and the object can be shorter
 // than its capacity, else the length of the object. For a stream of the application returns dataLength, or UINT32_MAX
 // if the length is not known, except for a write of 0 bytes at the beginning, which empties the stream.
-OD_size_t end_of_write(const OD_stream_t& stream, const Properties& shape, OD_size_t count) {
+OD_size_t end_of_write(const OD_stream_t& stream, const Properties& properties, OD_size_t count) {
   const bool is_unknown = stream.dataLength == 0 && (count != 0 || stream.dataOffset != 0);
-  if (shape.kind == Kind::foreign) {
+  if (properties.kind == Kind::application_stream) {
     return is_unknown ? UINT32_MAX : stream.dataLength;
   }
-  return is_in_memory(shape) && stream.dataLength < shape.length ? stream.dataLength : shape.length;
+  return is_in_memory(properties) && stream.dataLength < properties.length ? stream.dataLength : properties.length;
 }
 
 // Returns the running call of an extension's write function, if it is for this object; else null.
-OD_WRITING_T* extension_of(const OD_stream_t& stream) {
+OD_WRITING_T* find_running_write(const OD_stream_t& stream) {
   const OD_t* const od = stream.Owner->Ext->Od;
   OD_WRITING_T* const writing = od == nullptr ? nullptr : od->Writing;
   return writing != nullptr && &writing->obj == stream.Entry ? writing : nullptr;
@@ -299,23 +302,23 @@ OD_WRITING_T* extension_of(const OD_stream_t& stream) {
 
 // Writes on behalf of the write function of an extension. TPDOs that are triggered by a change are deferred while
 // mapped objects are locked.
-ODR_t write_for_extension(OD_WRITING_T& writing, const OD_stream_t& stream, const Properties& shape, const Piece& piece,
-                          const uint8_t* from) {
+ODR_t write_for_extension(OD_WRITING_T& writing, const OD_stream_t& stream, const Properties& properties,
+                          const Piece& piece, const uint8_t* from) {
   const pdo::Lock lock(*stream.Owner);
-  writing.by_original = !is_in_memory(shape);
-  return write_piece(stream, shape, piece, from);
+  writing.by_original = !is_in_memory(properties);
+  return write_piece(stream, properties, piece, from);
 }
 
 ODR_t write_object(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD_size_t& passed) {
-  const Properties shape = properties_of(*stream.Entry, *stream.Owner);
-  if (is_missing(shape)) {
+  const Properties properties = properties_of(*stream.Entry, *stream.Owner);
+  if (is_inaccessible(properties)) {
     return ODR_SUB_NOT_EXIST;
   }
-  if (shape.type->Write == nullptr) {
+  if (properties.type->Write == nullptr) {
     return ODR_READONLY;
   }
-  const OD_size_t end = end_of_write(stream, shape, count);
-  if (!is_inside(stream, end)) {
+  const OD_size_t end = end_of_write(stream, properties, count);
+  if (!can_continue(stream, end)) {
     return ODR_DEV_INCOMPAT;
   }
   if (count > end - stream.dataOffset) {
@@ -325,9 +328,9 @@ ODR_t write_object(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD
   if (count == 0 && !is_last(piece)) {
     return advance_access(stream, piece, passed);
   }
-  OD_WRITING_T* const writing = extension_of(stream);
-  const ODR_t result = writing == nullptr ? write_piece(stream, shape, piece, from)
-                                          : write_for_extension(*writing, stream, shape, piece, from);
+  OD_WRITING_T* const writing = find_running_write(stream);
+  const ODR_t result = writing == nullptr ? write_piece(stream, properties, piece, from)
+                                          : write_for_extension(*writing, stream, properties, piece, from);
   return result != ODR_OK ? result : advance_access(stream, piece, passed);
 }
 

@@ -29,8 +29,8 @@ unsigned first_of(const OD_t& od, const CO_OBJ& obj) {
 // Returns whether obj is an extensible entry of the object with this index. obj is accessed only if it points into the
 // table.
 bool is_extensible_of(const OD_t& od, uint16_t index, const CO_OBJ* obj) {
-  const auto place = reinterpret_cast<uintptr_t>(obj) - reinterpret_cast<uintptr_t>(od.Table);
-  return place < od.TableLen * sizeof(CO_OBJ) && CO_GET_IDX(obj->Key) == index && extensible(*obj) != nullptr;
+  const auto offset = reinterpret_cast<uintptr_t>(obj) - reinterpret_cast<uintptr_t>(od.Table);
+  return offset < od.TableLen * sizeof(CO_OBJ) && CO_GET_IDX(obj->Key) == index && extensible(*obj) != nullptr;
 }
 
 // Ends the transfer of an SDO server channel: calls the End function of the type now. The server aborts the transfer at
@@ -46,8 +46,9 @@ void end_transfer(CO_NODE& node, CO_SDO& channel) {
 }
 
 // Returns whether an OD_TRANSFER can be used for another SDO transfer.
-bool is_free(const CO_NODE& node, const OD_TRANSFER& place) {
-  return place.Entry == nullptr || (!has(place, inside) && !access::is_open(node, *place.Entry, nullptr));
+bool is_free(const CO_NODE& node, const OD_TRANSFER& transfer) {
+  return transfer.Entry == nullptr ||
+         (!has(transfer, in_application) && !access::is_open(node, *transfer.Entry, nullptr));
 }
 
 }  // namespace
@@ -56,17 +57,17 @@ void restart(OD_TRANSFER& transfer, OD_size_t length) {
   transfer.Offset = 0;
   transfer.Length = length;
   transfer.Passed = 0;
-  clear(transfer, exhausted);
-  clear(transfer, holds);
-  clear(transfer, returns);
+  clear(transfer, all_passed);
+  clear(transfer, has_kept_byte);
+  clear(transfer, rereads);
 }
 
-bool is_served(const OD_t& od, const CO_NODE& node, const CO_OBJ& obj) {
+bool is_called_by_transfer(const OD_t& od, const CO_NODE& node, const CO_OBJ& obj) {
   if (node.RequestObj != &obj) {
     return false;
   }
   const unsigned n = first_of(od, obj);
-  return n == application || !has(od.Transfer[n], inside);
+  return n == application || !has(od.Transfer[n], in_application);
 }
 
 OD_TRANSFER* first_transfer(OD_t& od, const CO_OBJ& obj) {
@@ -75,13 +76,13 @@ OD_TRANSFER* first_transfer(OD_t& od, const CO_OBJ& obj) {
 }
 
 OD_TRANSFER* find_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj) {
-  OD_TRANSFER* const place = first_transfer(od, obj);
-  const bool lost = place != nullptr && has(*place, by_server) && !access::is_open(node, obj, nullptr);
-  return lost ? nullptr : place;
+  OD_TRANSFER* const transfer = first_transfer(od, obj);
+  const bool is_closed = transfer != nullptr && has(*transfer, by_server) && !access::is_open(node, obj, nullptr);
+  return is_closed ? nullptr : transfer;
 }
 
 OD_TRANSFER* find_access(OD_t& od, const CO_NODE& node, const CO_OBJ& obj) {
-  if (is_served(od, node, obj)) {
+  if (is_called_by_transfer(od, node, obj)) {
     return find_transfer(od, node, obj);
   }
   OD_TRANSFER& own = od.Transfer[application];
@@ -100,7 +101,7 @@ OD_TRANSFER* begin_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj, ui
   return &od.Transfer[n];
 }
 
-void bind(OD_TRANSFER& transfer, const CO_NODE& node) {
+void mark_if_of_server(OD_TRANSFER& transfer, const CO_NODE& node) {
   CO_ASSERT(transfer.Entry != nullptr);
   if (access::is_open(node, *transfer.Entry, nullptr)) {
     set(transfer, by_server);
@@ -117,7 +118,7 @@ void end_accesses(OD_t& od, uint16_t index) {
   CO_OBJ* const served = is_extensible_of(od, index, node.RequestObj) ? node.RequestObj : nullptr;
   OD_TRANSFER* const running = served == nullptr ? nullptr : first_transfer(od, *served);
   if (running != nullptr) {
-    set(*running, lost);
+    set(*running, extension_changed);
   }
   ++od.Changes;
   OD_TRANSFER& own = od.Transfer[application];
@@ -132,13 +133,13 @@ void end_accesses(OD_t& od, uint16_t index) {
   }
 }
 
-bool is_lost(const CO_NODE& node, const CO_OBJ& obj) {
+bool is_extension_changed(const CO_NODE& node, const CO_OBJ& obj) {
   OD_t* const od = node.Ext->Od;
-  if (od == nullptr || !is_served(*od, node, obj)) {
+  if (od == nullptr || !is_called_by_transfer(*od, node, obj)) {
     return false;
   }
   const OD_TRANSFER* const transfer = first_transfer(*od, obj);
-  return transfer != nullptr && has(*transfer, lost);
+  return transfer != nullptr && has(*transfer, extension_changed);
 }
 
 OD_TRANSFER& begin_access(OD_t& od, const CO_OBJ& obj) {

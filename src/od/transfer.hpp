@@ -10,29 +10,29 @@ namespace co::od {
 
 // Bits of OD_TRANSFER.State.
 enum Flag : uint8_t {
-  exhausted = 0x01,  // the function has read or written all bytes
-  inside = 0x02,     // a function of the application is running: its accesses are not part of the transfer
-  by_server = 0x04,  // belongs to an SDO server channel: it ends once no channel has the object open
-  holds = 0x08,      // KeptByte contains the next byte
-  lost = 0x10,       // the object has got another extension: further accesses are refused
-  returns = 0x20,    // bytes are read again from the beginning, up to a position
+  all_passed = 0x01,         // the extension's function has read or written all bytes
+  in_application = 0x02,     // a function of the application is running: its accesses are not part of the transfer
+  by_server = 0x04,          // belongs to an SDO server channel: it ends once no channel has the object open
+  has_kept_byte = 0x08,      // KeptByte contains the next byte
+  extension_changed = 0x10,  // the object has got another extension: further accesses are refused
+  rereads = 0x20,            // bytes are read again from the beginning, up to a position
 };
 
 [[nodiscard]] inline bool has(const OD_TRANSFER& transfer, Flag flag) { return (transfer.State & flag) != 0; }
 inline void set(OD_TRANSFER& transfer, Flag flag) { transfer.State = static_cast<uint8_t>(transfer.State | flag); }
 inline void clear(OD_TRANSFER& transfer, Flag flag) { transfer.State = static_cast<uint8_t>(transfer.State & ~flag); }
 
-// Returns whether all bytes were returned to the reader.
-[[nodiscard]] inline bool is_ended(const OD_TRANSFER& transfer) {
-  return has(transfer, exhausted) && !has(transfer, holds);
+// Returns whether the reader has got all bytes.
+[[nodiscard]] inline bool is_read_completely(const OD_TRANSFER& transfer) {
+  return has(transfer, all_passed) && !has(transfer, has_kept_byte);
 }
 
 // Sets an access to the beginning of a stream of this length in bytes.
 void restart(OD_TRANSFER& transfer, OD_size_t length);
 
-// Returns whether the caller is the SDO transfer that is being served, and not a function of the application that the
-// transfer has called.
-[[nodiscard]] bool is_served(const OD_t& od, const CO_NODE& node, const CO_OBJ& obj);
+// Returns whether the running access to the object belongs to the SDO transfer that is being served. Returns false for
+// an access by a function of the application, also one that this transfer has called.
+[[nodiscard]] bool is_called_by_transfer(const OD_t& od, const CO_NODE& node, const CO_OBJ& obj);
 
 // Returns the open SDO transfer of the object; null: none is open, or its channel no longer has the object open.
 [[nodiscard]] OD_TRANSFER* find_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj);
@@ -46,7 +46,7 @@ void restart(OD_TRANSFER& transfer, OD_size_t length);
 
 // Marks an SDO transfer that accesses data as belonging to an SDO server channel, if a channel has the object open. An
 // SDO client that accesses its own node has no channel.
-void bind(OD_TRANSFER& transfer, const CO_NODE& node);
+void mark_if_of_server(OD_TRANSFER& transfer, const CO_NODE& node);
 
 // Begins an SDO transfer of total bytes (CO_OBJ_SIZE_UNKNOWN: not indicated). Null: no OD_TRANSFER is free.
 [[nodiscard]] OD_TRANSFER* begin_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj, uint32_t total);
@@ -59,8 +59,9 @@ void end_transfer(OD_TRANSFER& transfer);
 // initialised.
 void end_accesses(OD_t& od, uint16_t index);
 
-// Returns whether the object of the SDO transfer that is being served has got another extension.
-[[nodiscard]] bool is_lost(const CO_NODE& node, const CO_OBJ& obj);
+// Returns whether the object of the SDO transfer that is being served has got another extension since the transfer
+// began.
+[[nodiscard]] bool is_extension_changed(const CO_NODE& node, const CO_OBJ& obj);
 
 [[nodiscard]] inline bool is_of_application(const OD_t& od, const OD_TRANSFER& transfer) {
   return &transfer == &od.Transfer[OD_TRANSFER_N - 1];

@@ -27,11 +27,11 @@ CO_ERR error_of(ODR_t result, CO_OBJ_TRANSFER transfer) {
   }
 }
 
-// Returns the result of a call that must read or write a number as a whole: partial instead of ODR_PARTIAL,
-// ODR_DEV_INCOMPAT if the length is wrong.
-ODR_t whole(ODR_t result, OD_size_t passed, OD_size_t size, ODR_t partial) {
+// Checks the result of a function that must read or write a number completely in one call. Returns if_partial in place
+// of ODR_PARTIAL, ODR_DEV_INCOMPAT if the function has passed another number of bytes than size, else the result.
+ODR_t check_complete(ODR_t result, OD_size_t passed, OD_size_t size, ODR_t if_partial) {
   if (result == ODR_PARTIAL) {
-    return partial;
+    return if_partial;
   }
   return result == ODR_OK && passed != size ? ODR_DEV_INCOMPAT : result;
 }
@@ -41,7 +41,7 @@ CO_ERR read_number(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, 
   OD_size_t passed = 0;
   stream.object = extension.object;
   const ODR_t result = extension.read == nullptr ? ODR_UNSUPP_ACCESS : extension.read(&stream, buffer, size, &passed);
-  return answer(obj, node, whole(result, passed, size, ODR_DEV_INCOMPAT), CO_OBJ_UPLOAD);
+  return set_abort_code(obj, node, check_complete(result, passed, size, ODR_DEV_INCOMPAT), CO_OBJ_UPLOAD);
 }
 
 CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, const void* buffer, uint32_t size) {
@@ -49,19 +49,19 @@ CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
   OD_size_t passed = 0;
   stream.object = extension.object;
   if (extension.write == nullptr) {
-    return answer(obj, node, ODR_UNSUPP_ACCESS, CO_OBJ_DOWNLOAD);
+    return set_abort_code(obj, node, ODR_UNSUPP_ACCESS, CO_OBJ_DOWNLOAD);
   }
   const Writing writing(node, obj);
   ODR_t result = extension.write(&stream, buffer, size, &passed);
-  result = whole(result, passed, size, ODR_DATA_SHORT);
+  result = check_complete(result, passed, size, ODR_DATA_SHORT);
   report_change(node, obj, result == ODR_OK, writing.by_original());
-  return answer(obj, node, result, CO_OBJ_DOWNLOAD);
+  return set_abort_code(obj, node, result, CO_OBJ_DOWNLOAD);
 }
 
 }  // namespace
 
-// Keeps the abort code that an original function has set during the call, if it belongs to the same result.
-CO_ERR answer(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer) {
+// Does not replace an abort code that an original type has set during the call, if it corresponds to the same result.
+CO_ERR set_abort_code(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer) {
   if (result == ODR_OK || result == ODR_PARTIAL) {
     COObjTypeUserSDOAbort(&obj, &node, no_abort);
     return CO_ERR_NONE;
@@ -72,8 +72,8 @@ CO_ERR answer(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer
   return error_of(result, transfer);
 }
 
-CO_ERR refuse(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer) {
-  return answer(obj, node, transfer == CO_OBJ_UPLOAD ? ODR_WRITEONLY : ODR_READONLY, transfer);
+CO_ERR refuse_access(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer) {
+  return set_abort_code(obj, node, transfer == CO_OBJ_UPLOAD ? ODR_WRITEONLY : ODR_READONLY, transfer);
 }
 
 void report_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original) {
@@ -111,8 +111,8 @@ CO_ERR ODValueRead(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) 
   if (extension != nullptr) {
     return size == ODValueSize(obj, node, size) ? read_number(*obj, *node, *extension, buffer, size) : CO_ERR_BAD_ARG;
   }
-  const CO_OBJ_TYPE* const type = type_without(*extensible(*obj));
-  return type == nullptr || type->Read == nullptr ? refuse(*obj, *node, CO_OBJ_UPLOAD)
+  const CO_OBJ_TYPE* const type = type_if_not_extended(*extensible(*obj));
+  return type == nullptr || type->Read == nullptr ? refuse_access(*obj, *node, CO_OBJ_UPLOAD)
                                                   : type->Read(obj, node, buffer, size);
 }
 
@@ -121,8 +121,8 @@ CO_ERR ODValueWrite(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size)
   if (extension != nullptr) {
     return size == ODValueSize(obj, node, size) ? write_number(*obj, *node, *extension, buffer, size) : CO_ERR_BAD_ARG;
   }
-  const CO_OBJ_TYPE* const type = type_without(*extensible(*obj));
-  return type == nullptr || type->Write == nullptr ? refuse(*obj, *node, CO_OBJ_DOWNLOAD)
+  const CO_OBJ_TYPE* const type = type_if_not_extended(*extensible(*obj));
+  return type == nullptr || type->Write == nullptr ? refuse_access(*obj, *node, CO_OBJ_DOWNLOAD)
                                                    : type->Write(obj, node, buffer, size);
 }
 

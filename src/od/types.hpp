@@ -8,30 +8,30 @@
 
 #if USE_OD
 
-// Running call of an extension's write function. A change of the object (flag A) is reported by its original type, if
-// the function calls it (by_original): that type compares the values. Streams in memory do not compare: their changes
-// are reported after the call.
+// Running call of an extension's write function. It determines which code reports the change of an object with flag A:
+// if the function calls OD_writeOriginal() for a number, the original type, which compares old and new value
+// (by_original); otherwise report_change() after the call. The types of strings and domains do not compare.
 struct OD_WRITING_T {
   const CO_OBJ& obj;
-  bool by_original;
+  bool by_original;  // the original type reports the change
 };
 
 namespace co::od {
 
-// Returns the error code of a type function for the result of a function of the application, and sets the abort code of
-// the transfer that is being served.
-[[nodiscard]] CO_ERR answer(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer);
+// Sets the abort code of the transfer that is being served, for the result of an extension's function. Returns the
+// error code that the type function has to return; CO_ERR_NONE for ODR_OK and ODR_PARTIAL, which clear the abort code.
+[[nodiscard]] CO_ERR set_abort_code(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer);
 
 // Returns the type that is used while an entry is not extended, its original type; null: accesses are refused
 // (OD_DISABLED).
-[[nodiscard]] inline const CO_OBJ_TYPE* type_without(const OD_TYPE& type) {
+[[nodiscard]] inline const CO_OBJ_TYPE* type_if_not_extended(const OD_TYPE& type) {
   return type.Without == OD_DISABLED ? nullptr : type.Original;
 }
-// Refuses an access: an upload as write-only, a download as read-only.
-[[nodiscard]] CO_ERR refuse(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer);
+// Refuses an access to an object without original type or function: an upload as write-only, a download as read-only.
+[[nodiscard]] CO_ERR refuse_access(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer);
 
-// Scope of a call of an extension's write function. OD_writeOriginal() does not run deferred work meanwhile: a TPDO
-// would read the object through the extension.
+// Scope of a call of an extension's write function. OD_writeOriginal() does not run deferred work within it, because a
+// TPDO would read the object through the extension.
 class Writing {
  public:
   Writing(CO_NODE& node, const CO_OBJ& obj) : od_(*node.Ext->Od), before_(od_.Writing), now_{obj, false} {
@@ -49,8 +49,8 @@ class Writing {
   OD_WRITING_T now_;
 };
 
-// Reports a change after a call of an extension's write function, and sends the TPDOs that were deferred meanwhile.
-// complete: the object has its new value.
+// Reports a change after a call of an extension's write function, and sends the TPDOs that were deferred during the
+// call. complete: the object has its new value. by_original: the original type has reported the change already.
 void report_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original);
 
 }  // namespace co::od

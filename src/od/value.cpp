@@ -13,7 +13,7 @@ namespace {
 ODR_t no_read(OD_stream_t*, void*, OD_size_t, OD_size_t*) { return ODR_UNSUPP_ACCESS; }
 ODR_t no_write(OD_stream_t*, const void*, OD_size_t, OD_size_t*) { return ODR_UNSUPP_ACCESS; }
 
-void put(OD_stream_t& stream, void* memory, OD_attr_t attribute, OD_size_t length) {
+void describe_variable(OD_stream_t& stream, void* memory, OD_attr_t attribute, OD_size_t length) {
   stream.dataOrig = memory;
   stream.attribute = attribute;
   stream.dataLength = length;
@@ -25,25 +25,25 @@ ODR_t describe_array(const OD_entry_t& entry, uint8_t sub, OD_stream_t& stream) 
     return ODR_SUB_NOT_EXIST;
   }
   if (sub == 0) {
-    put(stream, array.dataOrig0, array.attribute0, 1);
+    describe_variable(stream, array.dataOrig0, array.attribute0, 1);
     return ODR_OK;
   }
   auto* const first = static_cast<uint8_t*>(array.dataOrig);
   const size_t distance = size_t{array.dataElementSizeof} * (sub - 1U);
-  put(stream, first == nullptr ? nullptr : first + distance, array.attribute, array.dataElementLength);
+  describe_variable(stream, first == nullptr ? nullptr : first + distance, array.attribute, array.dataElementLength);
   return ODR_OK;
 }
 
 ODR_t describe_record(const OD_entry_t& entry, uint8_t sub, OD_stream_t& stream) {
   const auto* const record = static_cast<const OD_obj_record_t*>(entry.odObject);
-  unsigned place = 0;
-  while (place < entry.subEntriesCount && record[place].subIndex != sub) {
-    ++place;
+  unsigned position = 0;
+  while (position < entry.subEntriesCount && record[position].subIndex != sub) {
+    ++position;
   }
-  if (place == entry.subEntriesCount) {
+  if (position == entry.subEntriesCount) {
     return ODR_SUB_NOT_EXIST;
   }
-  put(stream, record[place].dataOrig, record[place].attribute, record[place].dataLength);
+  describe_variable(stream, record[position].dataOrig, record[position].attribute, record[position].dataLength);
   return ODR_OK;
 }
 
@@ -52,7 +52,7 @@ ODR_t describe_memory(const OD_entry_t& entry, uint8_t sub, OD_stream_t& stream)
   switch (entry.odObjectType & ODT_TYPE_MASK) {
     case ODT_VAR: {
       const auto& variable = *static_cast<const OD_obj_var_t*>(entry.odObject);
-      put(stream, variable.dataOrig, variable.attribute, variable.dataLength);
+      describe_variable(stream, variable.dataOrig, variable.attribute, variable.dataLength);
       return sub == 0 ? ODR_OK : ODR_SUB_NOT_EXIST;
     }
     case ODT_ARR: return describe_array(entry, sub, stream);
@@ -61,6 +61,7 @@ ODR_t describe_memory(const OD_entry_t& entry, uint8_t sub, OD_stream_t& stream)
   }
 }
 
+// Describes a variable of an object, for an access from its beginning.
 ODR_t describe(const OD_entry_t& entry, uint8_t sub, OD_stream_t& stream) {
   if (!is_of_table(entry)) {
     stream = {};
@@ -88,27 +89,29 @@ void extend(const OD_extension_t& extension, OD_IO_t& io) {
   io.write = extension.write == nullptr ? no_write : extension.write;
 }
 
+// Returns whether at least one entry of the object can be extended.
 bool has_extensible(const OD_entry_t& entry) {
   if (!is_of_table(entry)) {
     return true;
   }
   const OD_t& od = owner_of(entry);
-  uint32_t place = dict::first_from(od.Table, od.TableLen, CO_DEV(entry.index, 0));
-  while (place < od.TableLen && CO_GET_IDX(od.Table[place].Key) == entry.index &&
-         extensible(od.Table[place]) == nullptr) {
-    ++place;
+  uint32_t position = dict::first_from(od.Table, od.TableLen, CO_DEV(entry.index, 0));
+  while (position < od.TableLen && CO_GET_IDX(od.Table[position].Key) == entry.index &&
+         extensible(od.Table[position]) == nullptr) {
+    ++position;
   }
-  return place < od.TableLen && CO_GET_IDX(od.Table[place].Key) == entry.index;
+  return position < od.TableLen && CO_GET_IDX(od.Table[position].Key) == entry.index;
 }
 
 bool changes_nothing(const OD_extension_t& extension) {
   return extension.read == OD_readOriginal && extension.write == OD_writeOriginal;
 }
 
-// Returns the result of a call that must read or write a whole value: otherwise if the length is wrong.
-ODR_t whole(ODR_t result, OD_size_t passed, OD_size_t length, ODR_t otherwise) {
+// Checks the result of a function that must read or write a complete value in one call. Returns if_wrong_length if the
+// function has succeeded with another number of bytes than length, else the result.
+ODR_t check_length(ODR_t result, OD_size_t passed, OD_size_t length, ODR_t if_wrong_length) {
   if (result == ODR_OK && passed != length) {
-    return otherwise;
+    return if_wrong_length;
   }
   return result;
 }
@@ -178,7 +181,7 @@ ODR_t OD_get_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size
   }
   OD_size_t passed = len;
   const ODR_t result = io.read(&io.stream, val, len, &passed);
-  return whole(result, passed, len, ODR_DATA_SHORT);
+  return check_length(result, passed, len, ODR_DATA_SHORT);
 }
 
 ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig) {
@@ -195,7 +198,7 @@ ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size
   }
   OD_size_t passed = len;
   const ODR_t result = io.write(&io.stream, val, len, &passed);
-  return whole(result, passed, len, ODR_DEV_INCOMPAT);
+  return check_length(result, passed, len, ODR_DEV_INCOMPAT);
 }
 
 void* OD_getPtr(const OD_entry_t* entry, uint8_t subIndex, OD_size_t len, ODR_t* err) {
