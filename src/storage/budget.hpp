@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Budget of stores: limits how often the bus makes the node write its non-volatile memory, to CO_PARA_BUDGET stores in
-// a row and one more each minute. Stores of the application are not limited.
+// Budget of stores: limits how often requests of the bus (SDO, and autonomous stores of changed values) write the
+// non-volatile memory. The budget is CO_PARA_BUDGET stores; each minute one of them becomes available again. Stores of
+// the application are not limited.
 #pragma once
 
 #include "co_core.h"
@@ -9,15 +10,15 @@ namespace co::budget {
 
 #if USE_PARA && CO_PARA_BUDGET > 0
 
-// Values of CO_NODE.StoreCause: cause of the writes in progress.
+// Values of CO_NODE.StoreCause: cause of the writes to the memory that follow.
 enum Cause : uint8_t {
   application,  // the application: its writes are not limited
-  bus,          // the bus, nothing was written yet: the first write takes one store from the budget
-  bus_counted,  // the bus, the first write has taken a store from the budget: the others are free
+  bus,          // the bus; nothing was written yet: the first write takes one store from the budget
+  bus_counted,  // the bus; the first write has taken a store from the budget: further writes take none
 };
 
-// Scope of one command of the bus, or of one round of autonomous stores. Its first write takes one store from the
-// budget, however many records it writes: no record is written more often than the budget allows.
+// Scope of one command of the bus ("save", "load", …), or of one periodic store of the autonomous groups. It takes at
+// most one store from the budget, with its first write, for any number of records.
 class Command {
  public:
   explicit Command(CO_NODE& node) : node_(node) { node.StoreCause = bus; }
@@ -29,6 +30,7 @@ class Command {
   CO_NODE& node_;
 };
 
+// Returns whether no store is available.
 [[nodiscard]] inline bool is_empty(const CO_NODE& node) { return node.StoresUsed >= CO_PARA_BUDGET; }
 
 // Takes a store from the budget if the bus causes the write and its command has not taken one yet. Returns whether the

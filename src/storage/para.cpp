@@ -20,10 +20,13 @@ namespace {
 
 using store::Found;
 
-uint8_t* bytes(const CO_PARA& group) { return group.Start; }
+uint8_t* memory_of(const CO_PARA& group) { return group.Start; }
 
+// Returns whether the group is stored in the memory: on command ("save"), or autonomously.
 bool has_record(const CO_PARA& group) { return (group.Value & CO_PARA__AE) != 0; }
 
+// Returns whether the records of two groups use the same addresses. The differences are unsigned: the one of the lower
+// address is large.
 bool overlap(const CO_NODE& node, const CO_PARA& a, const CO_PARA& b) {
   return has_record(a) && has_record(b) &&
          (a.Offset - b.Offset < store::space(node, b.Size) || b.Offset - a.Offset < store::space(node, a.Size));
@@ -38,17 +41,18 @@ struct Located {
 // CO_PARA.Value may hold the version of the layout above its flags.
 uint32_t version_of(const CO_PARA& group) { return group.Version != 0 ? group.Version : group.Value >> version_bit; }
 
-// 1010h and 1011h may name a group by two CO_PARA.
-bool is_same(const CO_PARA& a, const CO_PARA& b) {
-  return a.Offset == b.Offset && a.Size == b.Size && bytes(a) == bytes(b) && a.Type == b.Type &&
+// Returns whether two CO_PARA describe one group: the entries of 1010h and 1011h may have a CO_PARA each.
+bool is_same_group(const CO_PARA& a, const CO_PARA& b) {
+  return a.Offset == b.Offset && a.Size == b.Size && memory_of(a) == memory_of(b) && a.Type == b.Type &&
          version_of(a) == version_of(b);
 }
 
+// Returns the record of a group, and whether the group must not be loaded or stored.
 Located locate(CO_NODE& node, const CO_PARA& group) {
   Located located = {{group.Offset, group.Size, version_of(group), 0}, false};
   Groups groups(node, store_index);
   for (const CO_PARA* other = groups.next(); other != nullptr; other = groups.next()) {
-    if (is_same(*other, group)) {
+    if (is_same_group(*other, group)) {
       located.record.group = CO_GET_SUB(groups.entry().Key);
       break;
     }
@@ -62,43 +66,44 @@ Located locate(CO_NODE& node, const CO_PARA& group) {
 CO_ERR use_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found found) {
   CO_ASSERT(size <= group.Size);
   if (static_cast<const uint8_t*>(group.Default) != nullptr) {
-    __builtin_memcpy(bytes(group), static_cast<const uint8_t*>(group.Default), size);
+    __builtin_memcpy(memory_of(group), static_cast<const uint8_t*>(group.Default), size);
   }
-  // The callback of the application sets the whole group.
-  const bool asked = found == Found::defaults && size == group.Size;
-  return asked && callback::set_para_defaults(node, const_cast<CO_PARA&>(group)) != 0 ? CO_ERR_PARA_RESTORE
-                                                                                      : CO_ERR_NONE;
+  const bool is_requested = found == Found::defaults && size == group.Size;  // the callback sets all bytes of the group
+  return is_requested && callback::set_para_defaults(node, const_cast<CO_PARA&>(group)) != 0 ? CO_ERR_PARA_RESTORE
+                                                                                             : CO_ERR_NONE;
 }
 
 // Returns whether a change of the group is stored autonomously. While the memory holds the request of a "load" to use
 // the defaults, changes are not stored, because they would replace the request.
-bool is_followed(CO_NODE& node, const CO_PARA& group) {
+bool is_change_stored(CO_NODE& node, const CO_PARA& group) {
   return is_saved_autonomously(group) && store::is_atomic(node) &&
          store::find(node, locate(node, group).record) != Found::defaults;
 }
 
-// A group that is not stored may have any Offset, so its record is not read. With a classic driver it is, as in
-// CANopen-Stack.
+// Reads the record of a group. The record of a group that is never stored is not read, because CO_PARA.Offset may have
+// any value; with a classic driver it is read, as in CANopen-Stack.
 store::Loaded load_record(CO_NODE& node, const CO_PARA& group, const store::Record& record, uint32_t size) {
   const bool is_loaded = has_record(group) || !store::is_atomic(node);
-  return is_loaded ? store::load(node, record, bytes(group), size) : store::Loaded{Found::blank, false};
+  return is_loaded ? store::load(node, record, memory_of(group), size) : store::Loaded{Found::blank, false};
 }
 
-// A store that the budget delays (CO_ERR_OBJ_STATE) is no error: the next round stores the group.
+// Stores a group. If the budget is used up (CO_ERR_OBJ_STATE), that is no error: the group is stored at the next period
+// (CO_PARA_PERIOD).
 CO_ERR save_now_or_later(CO_NODE& node, const CO_PARA& group) {
   const CO_ERR err = save(node, group);
   return err == CO_ERR_OBJ_STATE ? CO_ERR_NONE : err;
 }
 
 // Sets the first size bytes of a group to the default values. A reset ends the request of a "load" for an autonomous
-// group by storing the defaults, so that later changes are stored. If the budget is used up, the next reset does.
+// group by storing the defaults, so that later changes are stored. If the budget is used up, the next reset ends the
+// request.
 CO_ERR load_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found found) {
   const CO_ERR err = use_defaults(node, group, size, found);
   const bool ends_request = found == Found::defaults && size == group.Size && is_saved_autonomously(group);
   return err == CO_ERR_NONE && ends_request ? save_now_or_later(node, group) : err;
 }
 
-// Loads the first size bytes of a group.
+// Loads the first size bytes of a group: from its record, or the default values.
 CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   const Located located = locate(node, group);
   if (located.is_refused) {
@@ -117,15 +122,18 @@ CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   return loaded.found == Found::no_place ? CO_ERR_PARA_STORE : err;
 }
 
+// Stores a group if its changes are stored autonomously. key: entry that an error is reported for.
 void save_change(CO_NODE& node, const CO_PARA& group, uint32_t key) {
-  if (is_followed(node, group)) {
+  if (is_change_stored(node, group)) {
     error::report(node, save_now_or_later(node, group), key);
   }
 }
 
-// Returns whether a reset must not load the group: the budget is used up, so the group may have a change that is newer
-// than the stored values and not stored yet.
-bool must_stay(CO_NODE& node, const CO_PARA& group) { return budget::is_empty(node) && is_followed(node, group); }
+// Returns whether the variables of the group may be newer than its record, because the budget is used up. A reset must
+// not load the group then.
+bool may_have_unsaved_change(CO_NODE& node, const CO_PARA& group) {
+  return budget::is_empty(node) && is_change_stored(node, group);
+}
 
 bool has_autonomous_group(CO_NODE& node) {
   Groups groups(node, store_index);
@@ -136,23 +144,25 @@ bool has_autonomous_group(CO_NODE& node) {
   return group != nullptr;
 }
 
-void on_time(void* node) { save_changes(*static_cast<CO_NODE*>(node)); }
+// Timer action: called each CO_PARA_PERIOD.
+void save_periodically(void* node) { save_changes(*static_cast<CO_NODE*>(node)); }
 
-bool holds(const CO_PARA& group, const CO_OBJ& obj) {
-  const auto place = static_cast<uintptr_t>(obj.Data);
-  const auto start = reinterpret_cast<uintptr_t>(bytes(group));
-  return CO_IS_DIRECT(obj.Key) == 0 && place - start < group.Size;
+// Returns whether the variable of an entry is located in the memory of a group.
+bool contains(const CO_PARA& group, const CO_OBJ& obj) {
+  const auto address = static_cast<uintptr_t>(obj.Data);
+  const auto start = reinterpret_cast<uintptr_t>(memory_of(group));
+  return CO_IS_DIRECT(obj.Key) == 0 && address - start < group.Size;
 }
 
-// Returns whether an object is part of a group. Strings and domains always count, because only their types know where
-// their bytes are located.
-bool is_stored(CO_NODE& node, const CO_OBJ& obj) {
+// Returns whether an object may be part of a group. Returns true for every stream (string, domain), because only its
+// type has the address of its bytes.
+bool may_be_in_group(CO_NODE& node, const CO_OBJ& obj) {
   if (obj::is_stream(obj)) {
     return true;
   }
   Groups groups(node, store_index);
   const CO_PARA* group = groups.next();
-  while (group != nullptr && !holds(*group, obj)) {
+  while (group != nullptr && !contains(*group, obj)) {
     group = groups.next();
   }
   return group != nullptr;
@@ -172,7 +182,7 @@ Groups::Groups(CO_NODE& node, uint16_t index) : node_(node), entry_(nullptr), in
 const CO_PARA* Groups::next() {
   while (sub_ <= last_) {
     const CO_OBJ* const obj = dict::find(node_.Dict, CO_DEV(index_, sub_++));
-    // Groups are loaded before the Init functions check their entries.
+    // The Init functions have not checked the entries yet: groups are loaded before.
     if (obj != nullptr && (obj->Type == CO_TPARA_STORE || obj->Type == CO_TPARA_RESTORE) &&
         CO_IS_DIRECT(obj->Key) == 0 && data_of<const CO_PARA>(*obj) != nullptr) {
       entry_ = obj;
@@ -184,7 +194,7 @@ const CO_PARA* Groups::next() {
 
 CO_ERR save(CO_NODE& node, const CO_PARA& group) {
   const Located located = locate(node, group);
-  return located.is_refused ? CO_ERR_PARA_OVERLAP : store::save(node, located.record, bytes(group));
+  return located.is_refused ? CO_ERR_PARA_OVERLAP : store::save(node, located.record, memory_of(group));
 }
 
 CO_ERR restore(CO_NODE& node, const CO_PARA& group) {
@@ -194,15 +204,16 @@ CO_ERR restore(CO_NODE& node, const CO_PARA& group) {
 
 namespace {
 
-// Loads the groups of a reset. member: the number of bytes to load, CO_PARA.Size or CO_PARA.ComSize.
+// Loads the groups of a reset. member: which member of CO_PARA is the number of bytes to load, Size (all) or ComSize
+// (the objects of the communication profile).
 CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
-  const bool is_part = member != &CO_PARA::Size;
+  const bool is_partial = member != &CO_PARA::Size;
   CO_ERR last = CO_ERR_NONE;
   Groups groups(node, store_index);
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
     const uint32_t size = group->*member;
-    const bool is_loaded = group->Type == type && size <= group->Size && !(is_part && size == 0);
-    const CO_ERR err = is_loaded && !must_stay(node, *group) ? load(node, *group, size) : CO_ERR_NONE;
+    const bool is_loaded = group->Type == type && size <= group->Size && !(is_partial && size == 0);
+    const CO_ERR err = is_loaded && !may_have_unsaved_change(node, *group) ? load(node, *group, size) : CO_ERR_NONE;
     if (err == CO_ERR_NONE) {
       continue;
     }
@@ -232,14 +243,14 @@ void save_changes(CO_NODE& node) {
 void init(CO_NODE& node) {
   const uint32_t period = tmr::ticks(node.Tmr, CO_PARA_PERIOD, CO_TMR_UNIT_1MS);
   if (node.Nmt.Mode == CO_INIT && period != 0 && has_autonomous_group(node)) {
-    tmr::start(node.Tmr, node.ParaTmr, 0, period, on_time, &node);
+    tmr::start(node.Tmr, node.ParaTmr, 0, period, save_periodically, &node);
   } else {
     tmr::stop(node.Tmr, node.ParaTmr);
   }
 }
 
 void on_write(CO_NODE& node, const CO_OBJ& obj) {
-  if (CO_GET_IDX(obj.Key) == verify_index || !is_stored(node, obj)) {
+  if (CO_GET_IDX(obj.Key) == verify_index || !may_be_in_group(node, obj)) {
     return;
   }
   node.Verified = 0;
