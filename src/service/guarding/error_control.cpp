@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node's own error control identifier.
+// Receives frames with the identifier of the node's own error control messages (700h + node-ID).
 #include "base/events.hpp"
 #include "base/routes.hpp"
 #include "service/guarding/guarding.hpp"

@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Node guarding and life guarding of this node; its own error control identifier. [301:7.2.8.2.2]
+// Node guarding and life guarding of this node, and the route of its error control identifier (700h + node-ID).
+// [301:7.2.8.2.2]
 #pragma once
 
 #include "co_core.h"
 
 namespace co::guarding {
 
-// Adds the route of the node's error control frames, and calls reset().
+// Adds the route of the node's error control identifier, and calls reset().
 void init(CO_NODE& node);
 
-// Reports that another node has sent an error control frame of this node.
+// Processes a data frame with the node's error control identifier: another node has the same node-ID. Raises
+// event::Fault::collision. Returns false, because this service has no use for the frame: it counts as malformed unless
+// another service processes it. number: not used.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 #if USE_GUARDING
 
-// Sets the toggle bit to 0; the NMT master is not missing.
+// Sets the toggle bit of the next response to 0, and clears the state of life guarding that the NMT master is missing.
 void reset(CO_NODE& node);
 
-// Processes a guarding request of the NMT master.
+// Processes a guarding request (remote frame) of the NMT master: responds, and restarts the life time. number: not
+// used.
 [[nodiscard]] bool on_remote(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
-// Stops life guarding when error control is not allowed.
+// Called when the NMT state has changed. Stops life guarding in states without error control (Initialisation,
+// CO_INVALID).
 void on_mode(CO_NODE& node);
 
 #else

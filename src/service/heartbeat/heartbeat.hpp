@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heartbeat producer. [301:7.2.8.3.2.2]
+// Heartbeat producer and consumer. [301:7.2.8.3.2.2]
 #pragma once
 
 #include "co_core.h"
 
 namespace co::heartbeat {
 
+// Producer: called when the NMT state has changed. Starts heartbeats at the boot-up message, with the period of 1017h;
+// stops them in states without error control (Initialisation, CO_INVALID).
 void on_mode(CO_NODE& node);
 
-// Consumer: stops monitoring when error control is not allowed. [301:7.5.2.19] The Init functions of the types add the
-// entries of 1016h.
+// Consumer: called when the NMT state has changed. Stops monitoring in states without error control. Monitoring is
+// configured by the Init functions of the entries of 1016h. [301:7.5.2.19]
 void on_mode_consumer(CO_NODE& node);
 
-// Processes the heartbeat of the node monitored by sub-index number of 1016h. Returns false if it is malformed.
+// Consumer: processes a heartbeat of the node that 1016h monitors at the sub-index number. Returns false if the frame
+// is malformed.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 }  // namespace co::heartbeat
