@@ -14,8 +14,9 @@ constexpr CO_EMCY_MSG emcy_message(uint16_t code, const uint8_t* msef) {
   return {code | (uint32_t{msef[0]} << 24), get_u32(msef + 1)};
 }
 
-// Returns the message of a fault of the stack: an error code, and detail (a node-ID or the number of a PDO) as third
-// byte of the manufacturer-specific error field. The other bytes are 0: the first two are also in 1003h. [301:7.5.2.4]
+// Returns the message of a communication fault: an error code, and detail (a node-ID or the number of a PDO) as third
+// byte of the manufacturer-specific error field. The other four bytes are 0; 1003h also stores the first two of them,
+// as additional information. [301:7.5.2.4]
 constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint8_t detail) { return {code, uint32_t{detail} << 8}; }
 
 // Returns the message with the error register, byte 2 of the frame, behind the error code.
@@ -23,6 +24,7 @@ constexpr CO_EMCY_MSG with_register(const CO_EMCY_MSG& msg, uint8_t reg) {
   return {msg.Low | (uint32_t{reg} << 16), msg.High};
 }
 
+// Returns the frame of a message that contains the error register.
 inline CO_IF_FRM emcy(uint32_t identifier, const CO_EMCY_MSG& msg) {
   CO_IF_FRM frame = empty_frame(identifier, emcy_dlc);
   put_low(frame, msg.Low);
@@ -30,6 +32,7 @@ inline CO_IF_FRM emcy(uint32_t identifier, const CO_EMCY_MSG& msg) {
   return frame;
 }
 
+// Return the members of a received frame. emcy_bytes(): the five bytes of the manufacturer-specific error field.
 inline uint16_t emcy_code(const CO_IF_FRM& frame) { return get_u16(frame.Data); }
 inline uint8_t emcy_register(const CO_IF_FRM& frame) { return frame.Data[2]; }
 inline const uint8_t* emcy_bytes(const CO_IF_FRM& frame) { return frame.Data + 3; }
