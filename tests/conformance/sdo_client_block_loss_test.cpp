@@ -9,10 +9,11 @@ namespace {
 
 using namespace test;
 
-// Segments of 40 bytes.
+// The 40 bytes 1, 2, 3, … as a sub-block of six segments.
 constexpr const char* segments[] = {"585#0101020304050607", "585#0208090A0B0C0D0E", "585#030F101112131415",
                                     "585#04161718191A1B1C", "585#051D1E1F20212223", "585#8624252627280000"};
 
+// Starts a block upload; \a answer is the server's response to the initiate.
 void start(SdoClient& node, std::string_view answer = "585#C600200528000000") {
   node.start_upload(0x2000, 5, 1000);
   node.tx("605#A40020057F1C0000");
@@ -20,7 +21,8 @@ void start(SdoClient& node, std::string_view answer = "585#C600200528000000") {
   node.tx("605#A300000000000000");
 }
 
-// Sends the segments with these numbers to the client, in this order. The last one ends the sub-block.
+// Sends the segments with these numbers to the client, in this order. Checks that the client does not answer before the
+// last one.
 void send(SdoClient& node, const std::vector<unsigned>& order) {
   for (std::size_t n = 0; n < order.size(); ++n) {
     node.rx(segments[order[n] - 1]);
@@ -28,6 +30,7 @@ void send(SdoClient& node, const std::vector<unsigned>& order) {
   }
 }
 
+// Ends the upload of the 40 bytes, and checks that the client has read them.
 void finish(SdoClient& node) {
   node.rx("585#C9C38B0000000000");
   node.tx("605#A100000000000000");
@@ -69,7 +72,7 @@ TEST_CASE("SDO client: repeated segments are ignored") {
   finish(node);
 }
 
-TEST_CASE("SDO client: a segment out of order is ignored and repeated [D22]") {
+TEST_CASE("SDO client: a segment out of order is not acknowledged and accepted when the server repeats it [D22]") {
   SdoClient node;
   start(node);
   send(node, {1, 3, 2, 4, 5, 6});
@@ -82,7 +85,7 @@ TEST_CASE("SDO client: a segment out of order is ignored and repeated [D22]") {
   finish(node);
 }
 
-TEST_CASE("SDO client: a last segment before its predecessor ends the sub-block, not the transfer [D22]") {
+TEST_CASE("SDO client: a last segment without its predecessor ends the sub-block but not the transfer [D22]") {
   SdoClient node;
   start(node);
   send(node, {1, 2, 3, 4, 6});
@@ -94,17 +97,17 @@ TEST_CASE("SDO client: a last segment before its predecessor ends the sub-block,
 }
 
 TEST_CASE("SDO client: a segment with the number 0 is refused with 0504 0003h [5.2]") {
-  for (const unsigned taken : {0U, 1U, 5U}) {
+  for (const unsigned received : {0U, 1U, 5U}) {
     SdoClient node;
     start(node);
-    for (unsigned n = 0; n < taken; ++n) node.rx(segments[n]);
+    for (unsigned n = 0; n < received; ++n) node.rx(segments[n]);
     node.rx("585#00FFFFFFFFFFFFFF");
     node.tx("605#8000200503000405");
     node.ended(CO_SDO_ERR_SEQ_NUM);
   }
 }
 
-TEST_CASE("SDO client: with the first of two segments lost none is acknowledged and the server repeats both [D22]") {
+TEST_CASE("SDO client: if the first of two segments is lost none is acknowledged and the server repeats both [D22]") {
   SdoClient node;
   start(node, "585#C60020050E000000");
   node.rx("585#8208090A0B0C0D0E");
@@ -117,7 +120,7 @@ TEST_CASE("SDO client: with the first of two segments lost none is acknowledged 
   node.has_read(counted(14));
 }
 
-TEST_CASE("SDO client: after a lost segment in a full sub-block segment 127 ends it [D22]") {
+TEST_CASE("SDO client: a full sub-block with a lost segment is acknowledged at segment 127 [D22]") {
   SdoClient node;
   start(node, "585#C60020057A030000");
   for (unsigned n = 1; n <= 127; ++n) {
@@ -140,7 +143,7 @@ TEST_CASE("SDO client: after a lost segment in a full sub-block segment 127 ends
   node.has_read(counted(890));
 }
 
-TEST_CASE("SDO client: a repeated end of a sub-block is ignored") {
+TEST_CASE("SDO client: a repeated last segment of a sub-block is ignored") {
   SdoClient node;
   start(node);
   send(node, {1, 2, 4, 5, 6});
@@ -157,42 +160,44 @@ TEST_CASE("SDO client: a repeated end of a sub-block is ignored") {
   finish(node);
 }
 
-// Runs an upload of \a length bytes with one fault. Returns true if the client has reported success.
+// Runs an upload of \a length bytes with one fault of the bus. Checks that the client reports an end, and no success
+// with wrong data. Returns true if it has reported success. \a crc: the server supports CRC.
 bool upload_with(const Disturbance& disturbance, std::size_t length, bool crc) {
   SdoClient node;
   PeerOptions options;
   options.crc = crc;
   SdoPeer peer(counted(length, 3), options);
   node.start_upload(0x2000, 5, 2000);
-  CHECK_MESSAGE(serve(node, peer, disturbance), "the transfer has no end");
+  CHECK_MESSAGE(serve(node, peer, disturbance), "the transfer does not end");
   REQUIRE(node.ends.size() == 1);
   const ClientEnd end = node.ends.front();
   node.ends.clear();
   node.frames();
-  CHECK_MESSAGE((end.code != 0 || end.data == counted(length, 3)), "wrong data, and success");
+  CHECK_MESSAGE((end.code != 0 || end.data == counted(length, 3)), "success is reported with wrong data");
   return end.code == 0;
 }
 
+// Runs a download like upload_with(); the server requests sub-blocks of 5, 3 and 127 segments in turn.
 bool download_with(const Disturbance& disturbance, std::size_t length) {
   SdoClient node;
   PeerOptions options;
   options.block_sizes = {5, 3, 127};
   SdoPeer peer({}, options);
   node.start_download(0x2000, 5, counted(length, 3));
-  CHECK_MESSAGE(serve(node, peer, disturbance), "the transfer has no end");
+  CHECK_MESSAGE(serve(node, peer, disturbance), "the transfer does not end");
   REQUIRE(node.ends.size() == 1);
   const ClientEnd end = node.ends.front();
   node.ends.clear();
   node.frames();
-  const bool right = peer.is_done && peer.object == counted(length, 3);
-  CHECK_MESSAGE((end.code != 0 || right), "wrong data, and success");
+  const bool is_correct = peer.is_done && peer.object == counted(length, 3);
+  CHECK_MESSAGE((end.code != 0 || is_correct), "success is reported with wrong data");
   return end.code == 0;
 }
 
 const Disturbance::Kind kinds[] = {Disturbance::Kind::lose, Disturbance::Kind::repeat,
                                    Disturbance::Kind::swap_with_next, Disturbance::Kind::change_bit};
 
-TEST_CASE("SDO client: one fault at any frame of a block upload gives the right data or a reported failure [T11]") {
+TEST_CASE("SDO client: a block upload with a fault at any frame gives the right data or reports a failure [T11]") {
   for (const std::size_t length : {29U, 100U, 890U, 1778U}) {
     const std::size_t frames = length / 7 + 8;
     for (const Disturbance::Kind kind : kinds) {
@@ -211,13 +216,14 @@ TEST_CASE("SDO client: one fault at any frame of a block upload gives the right 
   }
 }
 
-TEST_CASE("SDO client: one fault at any frame of a block download gives the right data or a reported failure [T11]") {
+TEST_CASE("SDO client: a block download with a fault at any frame gives the right data or reports a failure [T11]") {
   for (const std::size_t length : {29U, 100U, 890U}) {
     const std::size_t frames = length / 7 + 8;
     for (const Disturbance::Kind kind : kinds) {
       for (const bool to_node : {true, false}) {
         const std::size_t last = to_node ? 10 : frames;
-        for (std::size_t at = 0; at<last; at += last> 40 ? stride(37) : 1) {
+        const std::size_t step = last > 40 ? stride(37) : 1;
+        for (std::size_t at = 0; at < last; at += step) {
           CAPTURE(length);
           CAPTURE(static_cast<int>(kind));
           CAPTURE(to_node);
@@ -229,15 +235,16 @@ TEST_CASE("SDO client: one fault at any frame of a block download gives the righ
   }
 }
 
-// If the only segment of a sub-block is lost, neither side can recover it: the transfer fails. [T11]
-TEST_CASE("SDO client: a lost, repeated or delayed segment does not fail a block upload [T11] [D11]") {
+// Except the only segment of the last sub-block (of 128 segments, the last one) and a last segment that arrives after
+// the end request: neither side can recover these. [T11]
+TEST_CASE("SDO client: a block upload succeeds although a segment is lost or repeated or delayed [T11] [D11]") {
   for (const std::size_t length : {14U, 100U, 455U, 896U}) {
     const std::size_t count = (length + 6) / 7;
     for (const Disturbance::Kind kind :
          {Disturbance::Kind::lose, Disturbance::Kind::repeat, Disturbance::Kind::swap_with_next}) {
       for (std::size_t n = 1; n <= count; n += count > 40 ? stride(37) : 1) {
-        const bool alone = n == count && (count == 128 || kind == Disturbance::Kind::swap_with_next);
-        if (alone) continue;
+        const bool is_unrecoverable = n == count && (count == 128 || kind == Disturbance::Kind::swap_with_next);
+        if (is_unrecoverable) continue;
         CAPTURE(length);
         CAPTURE(static_cast<int>(kind));
         CAPTURE(n);
@@ -247,7 +254,7 @@ TEST_CASE("SDO client: a lost, repeated or delayed segment does not fail a block
   }
 }
 
-TEST_CASE("SDO client: a lost or delayed segment does not fail a block download [T11] [D11]") {
+TEST_CASE("SDO client: a block download succeeds although a segment is lost or delayed [T11] [D11]") {
   for (const std::size_t length : {29U, 100U, 890U}) {
     const std::size_t count = (length + 6) / 7;
     for (const Disturbance::Kind kind : {Disturbance::Kind::lose, Disturbance::Kind::swap_with_next}) {

@@ -66,10 +66,10 @@ TEST_CASE("SDO client: the CRC of \"123456789\" is 31C3h, low byte first [D14]")
 }
 
 TEST_CASE(
-    "SDO client: servers without CRC or size are accepted; the CRC of a server without CRC is ignored [D12] [D14]") {
+    "SDO client: a server need not support CRC nor indicate the size and its CRC field is then ignored [D12] [D14]") {
   struct Case {
     const char* answer;
-    const char* end;
+    const char* end_request;
     std::uint32_t total;
   };
   const Case cases[] = {
@@ -84,18 +84,18 @@ TEST_CASE(
     send_segments(node, 2);
     node.rx("585#830F101112131415");
     node.tx("605#A2037F0000000000");
-    node.rx(one.end);
+    node.rx(one.end_request);
     node.tx("605#A100000000000000");
     node.has_read(counted(21));
   }
 }
 
-TEST_CASE("SDO client: block uploads with 0 to 7 unused bytes fit buffers of exactly their size [301:7.2.4.3.15]") {
+TEST_CASE("SDO client: block uploads with 0 to 6 unused bytes fit buffers of exactly their size [301:7.2.4.3.15]") {
   struct Case {
     std::uint32_t length;
-    const char* announced;
-    const char* last;
-    const char* end;
+    const char* answer_with_size;
+    const char* last_segment;
+    const char* end_request;
   };
   const Case cases[] = {{29, "585#C60020051D000000", "585#851DAAAAAAAAAAAA", "585#D9111F0000000000"},
                         {30, "585#C60020051E000000", "585#851D1EAAAAAAAAAA", "585#D521010000000000"},
@@ -109,11 +109,11 @@ TEST_CASE("SDO client: block uploads with 0 to 7 unused bytes fit buffers of exa
       CAPTURE(one.length);
       CAPTURE(announced);
       SdoClient node;
-      start(node, one.length, announced ? one.announced : "585#C400200500000000");
+      start(node, one.length, announced ? one.answer_with_size : "585#C400200500000000");
       send_segments(node, 4);
-      node.rx(one.last);
+      node.rx(one.last_segment);
       node.tx("605#A2057F0000000000");
-      node.rx(one.end);
+      node.rx(one.end_request);
       node.tx("605#A100000000000000");
       CHECK(node.has_read(counted(one.length)).num == one.length);
     }
@@ -143,7 +143,7 @@ TEST_CASE("SDO client: block upload of an empty object has one segment without d
   }
 }
 
-TEST_CASE("SDO client: 889 bytes are one full sub-block whose last segment has bit 7 [301:7.2.4.3.14]") {
+TEST_CASE("SDO client: 889 bytes are uploaded in one full sub-block whose segment 127 has bit 7 set [301:7.2.4.3.14]") {
   SdoClient node;
   start(node, 889, "585#C600200579030000");
   send_segments(node, 126);
@@ -154,7 +154,7 @@ TEST_CASE("SDO client: 889 bytes are one full sub-block whose last segment has b
   node.has_read(counted(889));
 }
 
-TEST_CASE("SDO client: with 890 bytes a full sub-block is acknowledged and the next one begins with segment 1") {
+TEST_CASE("SDO client: of 890 bytes a full sub-block is acknowledged and the next one begins with segment 1") {
   SdoClient node;
   start(node, 890, "585#C60020057A030000");
   send_segments(node, 126);
@@ -170,13 +170,13 @@ TEST_CASE("SDO client: with 890 bytes a full sub-block is acknowledged and the n
 }
 
 TEST_CASE("SDO client: a wrong CRC is refused with 0504 0004h [D14]") {
-  for (const char* end : {"585#C1F0CC0000000000", "585#C1CDF00000000000", "585#C100000000000000"}) {
+  for (const char* end_request : {"585#C1F0CC0000000000", "585#C1CDF00000000000", "585#C100000000000000"}) {
     SdoClient node;
     start(node, 100, "585#C600200515000000");
     send_segments(node, 2);
     node.rx("585#830F101112131415");
     node.tx("605#A2037F0000000000");
-    node.rx(end);
+    node.rx(end_request);
     node.tx("605#8000200504000405");
     node.ended(CO_SDO_ERR_CRC);
   }
@@ -205,13 +205,13 @@ TEST_CASE("SDO client: a changed bit in any byte of the data is detected by the 
 
 TEST_CASE(
     "SDO client: a block upload with fewer bytes than announced is refused with 0607 0013h before the CRC check [D5]") {
-  for (const char* end : {"585#C1F0CD0000000000", "585#C100000000000000"}) {
+  for (const char* end_request : {"585#C1F0CD0000000000", "585#C100000000000000"}) {
     SdoClient node;
     start(node, 100, "585#C600200516000000");
     send_segments(node, 2);
     node.rx("585#830F101112131415");
     node.tx("605#A2037F0000000000");
-    node.rx(end);
+    node.rx(end_request);
     node.tx("605#8000200513000706");
     node.ended(CO_SDO_ERR_LEN_SMALL);
   }
@@ -228,8 +228,9 @@ TEST_CASE("SDO client: a block upload with more bytes than announced is refused 
   node.ended(CO_SDO_ERR_LEN_HIGH);
 }
 
-// Sends segments until the client aborts, and checks that this is not later than the end of the sub-block. [D21]
-void check_gives_up(SdoClient& node, unsigned first, unsigned last, const char* abort, std::uint32_t code) {
+// Sends segments \a first to \a last until the client aborts; \a last ends the sub-block. Checks the abort, and that
+// further segments are ignored. [D21]
+void check_aborts_in_sub_block(SdoClient& node, unsigned first, unsigned last, const char* abort, std::uint32_t code) {
   for (unsigned n = first; n <= last && node.ends.empty(); ++n) {
     CO_IF_FRM frm = frame("585#0055555555555555");
     frm.Data[0] = static_cast<std::uint8_t>(n == last ? n | 0x80U : n);
@@ -242,11 +243,11 @@ void check_gives_up(SdoClient& node, unsigned first, unsigned last, const char* 
   node.silent();
 }
 
-TEST_CASE("SDO client: whole segments more than announced are refused with 0607 0012h [D5] [D21]") {
+TEST_CASE("SDO client: complete segments beyond the announced size are refused with 0607 0012h [D5] [D21]") {
   SdoClient node;
   start(node, 100, "585#C600200515000000");
   send_segments(node, 3);
-  check_gives_up(node, 4, 9, "605#8000200512000706", CO_SDO_ERR_LEN_HIGH);
+  check_aborts_in_sub_block(node, 4, 9, "605#8000200512000706", CO_SDO_ERR_LEN_HIGH);
 }
 
 TEST_CASE("SDO client: an announced size above the buffer is refused with 0504 0005h and no block is requested") {
@@ -261,39 +262,39 @@ TEST_CASE("SDO client: an announced size above the buffer is refused with 0504 0
   }
 }
 
-TEST_CASE("SDO client: segments of unannounced size beyond the buffer are refused with 0504 0005h [D21]") {
+TEST_CASE("SDO client: segments beyond the buffer are refused with 0504 0005h if no size was announced [D21]") {
   SdoClient node;
   start(node, 29, "585#C400200500000000");
   send_segments(node, 4);
-  check_gives_up(node, 5, 9, "605#8000200505000405", CO_SDO_ERR_MEM);
+  check_aborts_in_sub_block(node, 5, 9, "605#8000200505000405", CO_SDO_ERR_MEM);
 }
 
-TEST_CASE("SDO client: an end that shows more bytes than the buffer is refused with 0504 0005h") {
-  for (const char* end : {"585#C100000000000000", "585#D500000000000000"}) {
+TEST_CASE("SDO client: an end request that leaves more bytes than the buffer has is refused with 0504 0005h") {
+  for (const char* end_request : {"585#C100000000000000", "585#D500000000000000"}) {
     SdoClient node;
     start(node, 29, "585#C000200500000000");
     send_segments(node, 4);
     node.rx("585#851D1E1F20212223");
     node.tx("605#A2057F0000000000");
-    node.rx(end);
+    node.rx(end_request);
     node.tx("605#8000200505000405");
     node.ended(CO_SDO_ERR_MEM);
   }
 }
 
-TEST_CASE("SDO client: an abort within a sub-block (80h exactly) is reported and not answered [D23] [C1]") {
-  for (const unsigned taken : {0U, 1U, 126U}) {
-    CAPTURE(taken);
+TEST_CASE("SDO client: a frame that begins with 80h within a sub-block is an abort and not answered [D23] [C1]") {
+  for (const unsigned received : {0U, 1U, 126U}) {
+    CAPTURE(received);
     SdoClient node;
     start(node, 1000, "585#C400200500000000");
-    send_segments(node, taken);
+    send_segments(node, received);
     node.rx("585#8000200500000606");
     node.silent();
     CHECK(node.ended(CO_SDO_ERR_HW_ACCESS).num == 0);
   }
 }
 
-TEST_CASE("SDO client: a repeated last segment before the end is ignored, even if it resembles an end [D27]") {
+TEST_CASE("SDO client: a repeated last segment is ignored although its first byte is that of an end request [D27]") {
   SdoClient node;
   start(node, 455, "585#C6002005C7010000");
   send_segments(node, 64);
@@ -309,7 +310,8 @@ TEST_CASE("SDO client: a repeated last segment before the end is ignored, even i
   node.has_read(counted(455));
 }
 
-TEST_CASE("SDO client: a server with pst may answer a block request with a normal upload [301:7.2.4.3.13] [D13]") {
+TEST_CASE(
+    "SDO client: a server may answer a block request with an expedited upload because of pst [301:7.2.4.3.13] [D13]") {
   struct Case {
     const char* answer;
     Bytes data;
@@ -328,7 +330,8 @@ TEST_CASE("SDO client: a server with pst may answer a block request with a norma
   }
 }
 
-TEST_CASE("SDO client: a server with pst may answer a block request with a segmented upload [301:7.2.4.3.13] [D13]") {
+TEST_CASE(
+    "SDO client: a server may answer a block request with a segmented upload because of pst [301:7.2.4.3.13] [D13]") {
   for (const char* answer : {"585#4100200508000000", "585#4000200500000000"}) {
     SdoClient node;
     node.start_upload(0x2000, 5, 29);
@@ -343,7 +346,7 @@ TEST_CASE("SDO client: a server with pst may answer a block request with a segme
   }
 }
 
-TEST_CASE("SDO client: an announced size above the buffer in a normal answer is refused with 0504 0005h") {
+TEST_CASE("SDO client: a segmented answer that announces more than the buffer has is refused with 0504 0005h") {
   SdoClient node;
   node.start_upload(0x2000, 5, 29);
   node.tx("605#A40020057F1C0000");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A dictionary and variables in read-only memory, whose flags permit writes of the network. The application's Writable
-// function refuses them: the transfer is aborted with 0601 0000h. A write to this memory would crash the program.
+// SDO downloads to read-only memory: the flags of the entries permit them, but the entries (flag D), their variables,
+// strings and domains are constants. The application's Writable function refuses the writes, so that the server aborts
+// with 0601 0000h. A write to this memory would crash the program.
 #include <iterator>
 
 #include "support/fixture.hpp"
@@ -26,15 +27,15 @@ const CO_OBJ table[] = {
     CO_OBJ_DICT_ENDMARK,
 };
 
-bool lies_in(const void* address, const void* memory, std::size_t size) {
+bool is_in(const void* address, const void* memory, std::size_t size) {
   const auto* byte = static_cast<const std::uint8_t*>(address);
   const auto* first = static_cast<const std::uint8_t*>(memory);
   return byte >= first && byte < first + size;
 }
 
 bool may_write(const void* address, std::uint32_t) {
-  return !lies_in(address, table, sizeof table) && !lies_in(address, &constant, sizeof constant) &&
-         !lies_in(address, text_memory, sizeof text_memory);
+  return !is_in(address, table, sizeof table) && !is_in(address, &constant, sizeof constant) &&
+         !is_in(address, text_memory, sizeof text_memory);
 }
 
 class Device : public Fixture {
@@ -44,7 +45,7 @@ class Device : public Fixture {
   }
 };
 
-TEST_CASE("SDO: a value of a table in read-only memory (flags D and W) is refused and unchanged [D16]") {
+TEST_CASE("SDO: a download to a value in a read-only dictionary (flags D and W) is refused and changes nothing [D16]") {
   Device node;
   node.ask("601#2F00200101000000", "581#8000200100000106");
   node.ask("601#2B00200201000000", "581#8000200200000106");
@@ -58,7 +59,7 @@ TEST_CASE("SDO: a value of a table in read-only memory (flags D and W) is refuse
   node.ask("601#4000200400000000", "581#4F00200400000000");
 }
 
-TEST_CASE("SDO: a heartbeat time in read-only memory is refused and starts no heartbeat [H1]") {
+TEST_CASE("SDO: a download to 1017h in read-only memory is refused and starts no heartbeat [H1]") {
   Device node;
   node.ask("601#2B1710000A000000", "581#8017100000000106");
   node.after(100ms);
@@ -66,12 +67,13 @@ TEST_CASE("SDO: a heartbeat time in read-only memory is refused and starts no he
   node.ask("601#4017100000000000", "581#4B17100000000000");
 }
 
-TEST_CASE("SDO: variables, strings and domains in read-only memory are refused and unchanged") {
+TEST_CASE("SDO: a download to a variable or string or domain in read-only memory is refused and changes nothing") {
   Device node;
   node.ask("601#2301200001020304", "581#8001200000000106");
   node.ask("601#2F02200041000000", "581#8002200000000106");
   node.ask("601#2F03200041000000", "581#8003200000000106");
   node.rx("601#2103200008000000");
+  // The domain may be refused at the initiate or at the segment.
   if (!node.can.sent.empty() && node.can.sent.front().frm.Data[0] == 0x60) {
     node.tx("581#6003200000000000");
     node.rx("601#0041424344454647");

@@ -21,11 +21,12 @@ struct Stream : LoggedStream, Fixture {
 // A state of an open transfer, and the requests that lead to it.
 struct State {
   std::string name;
-  std::string direction;
-  bool in_sub_block;  // all commands but 80h are segments
+  std::string direction;  // "up" or "down", as in the log
+  bool in_sub_block;      // within the sub-block of a download, where all commands but 80h are segments
   std::vector<std::string> requests;
 };
 
+// Returns the initiate of a block download of 890 bytes and its first segments.
 [[maybe_unused]] std::vector<std::string> block_of(const char* initiate, std::size_t segments) {
   std::vector<std::string> requests = {initiate};
   for (std::size_t n = 0; n < segments; ++n) {
@@ -37,20 +38,20 @@ struct State {
 std::vector<State> states() {
   std::vector<State> all = {
       {"segmented download", "down", false, {"601#2100300014000000"}},
-      {"segmented download, a segment", "down", false, {"601#2100300014000000", "601#0001020304050607"}},
+      {"segmented download after one segment", "down", false, {"601#2100300014000000", "601#0001020304050607"}},
       {"segmented upload", "up", false, {"601#4000300000000000"}},
-      {"segmented upload, a segment", "up", false, {"601#4000300000000000", "601#6000000000000000"}},
+      {"segmented upload after one segment", "up", false, {"601#4000300000000000", "601#6000000000000000"}},
   };
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
   const char* const download = "601#C60030007A030000";
   const std::vector<State> block = {
       {"block download", "down", true, {download}},
-      {"block download, a segment", "down", true, block_of(download, 1)},
-      {"block download, a block", "down", true, block_of(download, 127)},
-      {"block download, all", "down", false, block_of(download, 128)},
+      {"block download after one segment", "down", true, block_of(download, 1)},
+      {"block download after one sub-block", "down", true, block_of(download, 127)},
+      {"block download before its end request", "down", false, block_of(download, 128)},
       {"block upload", "up", false, {"601#A40030007F000000"}},
-      {"block upload, a block", "up", false, {"601#A40030007F000000", "601#A300000000000000"}},
-      {"block upload, all",
+      {"block upload after one sub-block", "up", false, {"601#A40030007F000000", "601#A300000000000000"}},
+      {"block upload before the end is confirmed",
        "up",
        false,
        {"601#A40030007F000000", "601#A300000000000000", "601#A27F7F0000000000", "601#A2017F0000000000"}},
@@ -60,11 +61,13 @@ std::vector<State> states() {
   return all;
 }
 
-// Calls the function in each state. Checks that End is called once, with the code.
-template <class Function>
-void each_ends_with(const std::string& code, Function function, bool also_in_sub_block = true) {
+enum class States { all, outside_of_sub_blocks };
+
+// Calls \a cause in each state. Checks that End is then called once, with the abort code (eight hexadecimal digits).
+template <class Cause>
+void each_ends_with(const std::string& code, Cause cause, States which = States::all) {
   for (const State& state : states()) {
-    if (state.in_sub_block && !also_in_sub_block) continue;
+    if (state.in_sub_block && which == States::outside_of_sub_blocks) continue;
     CAPTURE(state.name);
     Stream node;
     for (const std::string& request : state.requests) {
@@ -74,7 +77,7 @@ void each_ends_with(const std::string& code, Function function, bool also_in_sub
     const Log before = node.take_log();
     CHECK(before.front().substr(0, 5) == "begin");
     CHECK(before.back().substr(0, 3) != "end");
-    function(node);
+    cause(node);
     node.frames();
     CHECK(node.take_log() == Log{"end " + state.direction + " " + code});
     node.after(2 * node.sdo_time_out());
@@ -85,12 +88,12 @@ void each_ends_with(const std::string& code, Function function, bool also_in_sub
 
 // Causes of the end of a transfer ------------------------------------------------------------------------------------
 
-TEST_CASE("SDO stream types: End after an abort of the client gets its code [D6]") {
+TEST_CASE("SDO stream types: End gets the code of an abort by the client [D6]") {
   each_ends_with("08000000", [](Fixture& node) { node.rx("601#8000300000000008"); });
   each_ends_with("12345678", [](Fixture& node) { node.rx("601#8000300078563412"); });
 }
 
-TEST_CASE("SDO stream types: End after an abort with the code 0 gets a failure") {
+TEST_CASE("SDO stream types: End gets a code other than 0 after an abort by the client with the code 0") {
   for (const State& state : states()) {
     CAPTURE(state.name);
     Stream node;
@@ -108,21 +111,23 @@ TEST_CASE("SDO stream types: End after an abort with the code 0 gets a failure")
 
 TEST_CASE("SDO stream types: End is called after an unknown command [D7]") {
   each_ends_with(
-      "05040001", [](Fixture& node) { node.rx("601#E000000000000000"); }, false);
+      "05040001", [](Fixture& node) { node.rx("601#E000000000000000"); }, States::outside_of_sub_blocks);
 }
 
 TEST_CASE("SDO stream types: End is called after a time-out [D18]") {
   each_ends_with("05040000", [](Fixture& node) { node.after(node.sdo_time_out()); });
 }
 
-TEST_CASE("SDO stream types: End is called at a new initiate, refused or not [D8]") {
+TEST_CASE("SDO stream types: End is called at a new initiate that is accepted or refused [D8]") {
   each_ends_with(
-      "08000022", [](Fixture& node) { node.ask("601#4000100000000000", "581#4300100091010F00"); }, false);
+      "08000022", [](Fixture& node) { node.ask("601#4000100000000000", "581#4300100091010F00"); },
+      States::outside_of_sub_blocks);
   each_ends_with(
-      "08000022", [](Fixture& node) { node.ask("601#4004100000000000", "581#8004100000000206"); }, false);
+      "08000022", [](Fixture& node) { node.ask("601#4004100000000000", "581#8004100000000206"); },
+      States::outside_of_sub_blocks);
 }
 
-TEST_CASE("SDO stream types: a new initiate of the same object calls End, then Begin [D8]") {
+TEST_CASE("SDO stream types: a new initiate of the same object calls End before Begin [D8]") {
   for (const State& state : states()) {
     if (state.in_sub_block) continue;
     CAPTURE(state.name);
@@ -143,14 +148,14 @@ TEST_CASE("SDO stream types: End is called when the NMT state forbids SDO [N8]")
   each_ends_with("08000022", [](Fixture& node) { node.call([&] { CONmtSetMode(&node->Nmt, CO_STOP); }); });
 }
 
-TEST_CASE("SDO stream types: End is called in every reset and in CONodeStop [N8] [T14]") {
+TEST_CASE("SDO stream types: End is called at every NMT reset and by CONodeStop [N8] [T14]") {
   each_ends_with("08000022", [](Fixture& node) { node.rx("000#8101"); });
   each_ends_with("08000022", [](Fixture& node) { node.rx("000#8201"); });
   each_ends_with("08000022", [](Fixture& node) { node.call([&] { CONmtReset(&node->Nmt, CO_RESET_NODE); }); });
   each_ends_with("08000022", [](Fixture& node) { node.call([&] { CONodeStop(&node.node); }); });
 }
 
-TEST_CASE("SDO stream types: End is not called by changes between states with SDO [N8]") {
+TEST_CASE("SDO stream types: End is not called if the NMT state changes and the new state permits SDO [N8]") {
   Stream node;
   node.ask("601#4000300000000000", "581#410030007A030000");
   node.take_log();
@@ -189,7 +194,7 @@ TEST_CASE("SDO stream types: a size that does not fit is refused before Begin [D
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
 
 TEST_CASE(
-    "SDO stream types: after a CRC error End is called, and data that fit into the buffer are not written [D14]") {
+    "SDO stream types: after a CRC error End is called and a block that fits into the buffer is not written [D14]") {
   Stream node;
   BlockOptions options;
   options.crc_error = 0x8000;
@@ -213,18 +218,18 @@ TEST_CASE("SDO stream types: End is called after a wrong number of bytes in bloc
   CHECK(node.log.back() == "end down 06070012");
   node.data = counting(9);
   node.take_log();
-  for (const std::string bad : {"037F", "0100"}) {
+  for (const std::string acknowledge : {"037F", "0100"}) {
     node.ask("601#A40030007F000000", "581#C600300009000000");
     node.rx("601#A300000000000000");
     node.tx({"581#0101020304050607", "581#8208090000000000"});
-    const std::string code = bad == "037F" ? "3" : "2";
-    node.ask("601#A2" + bad + "0000000000", "581#800030000" + code + "000405");
+    const std::string code = acknowledge == "037F" ? "3" : "2";
+    node.ask("601#A2" + acknowledge + "0000000000", "581#800030000" + code + "000405");
     CHECK(node.log.back() == "end up 0504000" + code);
   }
   CHECK(std::count_if(node.log.begin(), node.log.end(), [](const auto& call) { return call[0] == 'e'; }) == 2);
 }
 
-TEST_CASE("SDO stream types: a block upload is not complete before the client confirms its end [D12]") {
+TEST_CASE("SDO stream types: End of a block upload is not called before the client confirms the end [D12]") {
   Stream node(9);
   node.ask("601#A40030007F000000", "581#C600300009000000");
   node.rx("601#A300000000000000");
@@ -241,6 +246,7 @@ TEST_CASE("SDO stream types: a block upload is not complete before the client co
 
 // Results of the type functions ---------------------------------------------------------------------------------------
 
+// Results of type functions: an error, an error with an abort code of the application, an abort code without an error.
 const auto refuse = [](CO_OBJ*, CO_NODE*) { return CO_ERR_OBJ_RANGE; };
 const auto refuse_with_code = [](CO_OBJ* obj, CO_NODE* node) {
   COObjTypeUserSDOAbort(obj, node, 0x12345678);
@@ -253,7 +259,7 @@ const auto only_set_code = [](CO_OBJ* obj, CO_NODE* node) {
 
 struct Initiate {
   std::string request;
-  bool expedited;  // true: 2 bytes; false: more
+  bool is_short;  // the object has 2 bytes, else 890
   std::string direction;
 };
 
@@ -272,10 +278,10 @@ std::vector<Initiate> initiates() {
   return all;
 }
 
-TEST_CASE("SDO stream types: a Begin that fails refuses the transfer without End") {
+TEST_CASE("SDO stream types: if Begin fails the transfer is refused and End is not called") {
   for (const Initiate& initiate : initiates()) {
     CAPTURE(initiate.request);
-    Stream node(initiate.expedited ? 2 : 890);
+    Stream node(initiate.is_short ? 2 : 890);
     node.on_begin = refuse;
     node.ask(initiate.request, "581#8000300030000906");
     node.on_begin = refuse_with_code;
@@ -288,10 +294,10 @@ TEST_CASE("SDO stream types: a Begin that fails refuses the transfer without End
   }
 }
 
-TEST_CASE("SDO stream types: a custom abort code in Begin without an error has no effect") {
+TEST_CASE("SDO stream types: an abort code that Begin sets without an error has no effect") {
   for (const Initiate& initiate : initiates()) {
     CAPTURE(initiate.request);
-    Stream node(initiate.expedited ? 2 : 890);
+    Stream node(initiate.is_short ? 2 : 890);
     node.on_begin = only_set_code;
     node.rx(initiate.request);
     const std::vector<std::string> sent = node.frames();
@@ -300,11 +306,11 @@ TEST_CASE("SDO stream types: a custom abort code in Begin without an error has n
   }
 }
 
-TEST_CASE("SDO stream types: if Reset fails after Begin, End gets its code") {
+TEST_CASE("SDO stream types: if Reset fails after Begin then End gets its abort code") {
   for (const Initiate& initiate : initiates()) {
     if (initiate.request[4] == 'C') continue;  // Reset is called only at its end
     CAPTURE(initiate.request);
-    Stream node(initiate.expedited ? 2 : 890);
+    Stream node(initiate.is_short ? 2 : 890);
     node.on_reset = refuse;
     node.ask(initiate.request, "581#8000300030000906");
     REQUIRE(node.log.size() == 3);
@@ -313,8 +319,8 @@ TEST_CASE("SDO stream types: if Reset fails after Begin, End gets its code") {
   }
 }
 
-TEST_CASE("SDO stream types: if a piece cannot be written or read, End gets its code") {
-  for (const bool own_code : {false, true}) {
+TEST_CASE("SDO stream types: if a piece cannot be written or read then End gets its abort code") {
+  for (const bool own_code : {false, true}) {  // true: the application sets the abort code
     const std::string code = own_code ? "12345678" : "06090030";
     const std::string bytes = own_code ? "78563412" : "30000906";
     Stream node;
@@ -344,8 +350,8 @@ TEST_CASE("SDO stream types: if a piece cannot be written or read, End gets its 
   }
 }
 
-TEST_CASE("SDO stream types: an End that fails after a download gives the abort code of the last answer") {
-  for (const bool own_code : {false, true}) {
+TEST_CASE("SDO stream types: if End fails after a download the last request is answered with its abort code") {
+  for (const bool own_code : {false, true}) {  // true: the application sets the abort code
     const std::string bytes = own_code ? "78563412" : "30000906";
     const std::uint32_t code = own_code ? 0x12345678 : 0x06090030;
     Stream node;
@@ -369,7 +375,7 @@ TEST_CASE("SDO stream types: an End that fails after a download gives the abort 
   }
 }
 
-TEST_CASE("SDO stream types: an End that fails after an upload, or after an abort, changes nothing") {
+TEST_CASE("SDO stream types: a failure of End after an upload or after an abort has no effect") {
   Stream node(9);
   node.on_end = refuse_with_code;
   CHECK(node.upload(0x3000, 0) == counting(9));
@@ -387,7 +393,7 @@ TEST_CASE("SDO stream types: an End that fails after an upload, or after an abor
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("SDO stream types: a custom abort code in End without an error has no effect at any time") {
+TEST_CASE("SDO stream types: an abort code that End sets without an error has no effect then or later") {
   Stream node;
   node.on_end = only_set_code;
   node.ask("601#2B00300011220000", "581#6000300000000000");

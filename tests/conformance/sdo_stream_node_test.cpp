@@ -15,11 +15,12 @@ struct Stream : LoggedStream, Fixture {
   explicit Stream(Setup setup = {}) : Fixture(setup.only_small().with(extended(0x3000))) { data = counting(9); }
 };
 
-long ends(const Log& log) {
+long count_ends(const Log& log) {
   return std::count_if(log.begin(), log.end(), [](const std::string& call) { return call[0] == 'e'; });
 }
 
-const auto stop = [](CO_OBJ*, CO_NODE* node) {
+const auto stop_sdo = [](  // enters Stopped, which permits no SDO
+                          CO_OBJ*, CO_NODE* node) {
   CONmtSetMode(&node->Nmt, CO_STOP);
   return CO_ERR_NONE;
 };
@@ -32,14 +33,14 @@ const auto reset_node = [](CO_OBJ*, CO_NODE* node) {
   return CO_ERR_NONE;
 };
 
-TEST_CASE("SDO stream types: a Begin that stops SDO is followed by one End and no answer [Q9] [N8]") {
+TEST_CASE("SDO stream types: if Begin enters Stopped then End is called once and no answer is sent [Q9] [N8]") {
   for (const char* request : {"601#2100300014000000", "601#4000300000000000", "601#2B00300011220000"}) {
     CAPTURE(std::string(request));
     Stream node;
-    node.on_begin = stop;
+    node.on_begin = stop_sdo;
     node.rx(request);
     node.silent();
-    CHECK(ends(node.log) == 1);
+    CHECK(count_ends(node.log) == 1);
     CHECK(node.log.back().substr(0, 3) == "end");
     node.rx("000#8001");
     node.on_begin = nullptr;
@@ -48,54 +49,56 @@ TEST_CASE("SDO stream types: a Begin that stops SDO is followed by one End and n
   }
 }
 
-TEST_CASE("SDO stream types: a Begin that stops the node is followed by one End and no answer [Q9]") {
+TEST_CASE("SDO stream types: if Begin calls CONodeStop then End is called once and no answer is sent [Q9]") {
   Stream node;
   node.on_begin = stop_node;
   node.rx("601#2100300014000000");
   node.silent();
-  CHECK(ends(node.log) == 1);
+  CHECK(count_ends(node.log) == 1);
   CHECK(node.mode() == CO_INVALID);
 }
 
-TEST_CASE("SDO stream types: an End that resets the node is answered first [Q3] [Q9]") {
+TEST_CASE("SDO stream types: if End requests a reset the download is answered before the reset [Q3] [Q9]") {
   Stream node;
   node.frames_per_call(2);
   node.on_end = reset_node;
   node.rx("601#2B00300011220000");
   node.tx({"581#6000300000000000", "701#00"});
-  CHECK(ends(node.log) == 1);
+  CHECK(count_ends(node.log) == 1);
 }
 
-TEST_CASE("SDO stream types: an End that stops SDO or the node is called once and not answered [Q9] [N8]") {
-  for (const auto& action : {std::function<CO_ERR(CO_OBJ*, CO_NODE*)>(stop), {stop_node}}) {
+TEST_CASE(
+    "SDO stream types: if End enters Stopped or calls CONodeStop it is called once and no answer is sent [Q9] [N8]") {
+  for (const auto& action : {std::function<CO_ERR(CO_OBJ*, CO_NODE*)>(stop_sdo), {stop_node}}) {
     Stream node;
     node.on_end = action;
     node.ask("601#2100300002000000", "581#6000300000000000");
     node.rx("601#0B01020000000000");
     node.silent();
-    CHECK(ends(node.log) == 1);
+    CHECK(count_ends(node.log) == 1);
   }
 }
 
-TEST_CASE("SDO stream types: Begin and End may access the dictionary, also their own object [Q9]") {
+TEST_CASE("SDO stream types: Begin and End may access the dictionary including their own object [Q9]") {
   Stream node;
   node.may_change(0x2001, 0);
-  const auto use = [](CO_OBJ*, CO_NODE* stack) {
+  const auto access_dictionary = [](CO_OBJ*, CO_NODE* stack) {
     std::uint32_t word = 0;
     CHECK(CODictRdLong(&stack->Dict, CO_DEV(0x1000, 0), &word) == CO_ERR_NONE);
     CHECK(CODictWrByte(&stack->Dict, CO_DEV(0x2001, 0), 0x77) == CO_ERR_NONE);
     CHECK(CODictRdLong(&stack->Dict, CO_DEV(0x3000, 0), &word) == CO_ERR_NONE);
     return CO_ERR_NONE;
   };
-  node.on_begin = use;
-  node.on_end = use;
+  node.on_begin = access_dictionary;
+  node.on_end = access_dictionary;
   CHECK(node.download(0x3000, 0, counting(20)) == 0);
   CHECK(node.data == counting(20));
-  CHECK(ends(node.log) == 1);
+  CHECK(count_ends(node.log) == 1);
 }
 
 #if CO_SSDO_N >= 2
 
+// Returns a node with a second SDO server at 690h/6A0h.
 Setup two_channels() {
   return Setup().before_init([](Objects& o) {
     o.sdo2_rx = 0x690;
@@ -103,7 +106,7 @@ Setup two_channels() {
   });
 }
 
-TEST_CASE("SDO stream types: a second channel is refused with 0800 0022h before Begin") {
+TEST_CASE("SDO stream types: a transfer on a second channel is refused with 0800 0022h and Begin is not called") {
   Stream node(two_channels());
   node.ask("601#4000300000000000", "581#4100300009000000");
   node.take_log();
@@ -128,7 +131,7 @@ TEST_CASE("SDO stream types: End is called when the COB-IDs of the channel chang
   CHECK(node.take_log() == Log{"end down 08000022"});
 }
 
-TEST_CASE("SDO stream types: End is called when its own channel ends, not another one") {
+TEST_CASE("SDO stream types: End is called when its own channel is aborted and not when another one is") {
   Stream node(two_channels());
   node.ask("690#2100300014000000", "6A0#6000300000000000");
   node.take_log();

@@ -9,22 +9,25 @@ namespace {
 
 using namespace test;
 
+// Returns a table whose RPDO 201h is synchronous and maps u8[0]: its value changes at the next SYNC only, which shows
+// whether a frame is processed as SYNC.
 SyncTable with_rpdo() {
   SyncTable table;
   table.rpdo[0].on(0x201, 1, {0x22010108});
   return table;
 }
 
-std::uint32_t write(SyncNode& node, std::uint32_t value) {
+// Writes 1005h as the application. Returns the abort code that SDO would get; 0: accepted.
+std::uint32_t write_sync_id(SyncNode& node, std::uint32_t value) {
   CO_ERR err = CO_ERR_NONE;
   node.call([&] { err = CODictWrLong(&node->Dict, CO_DEV(0x1005, 0), value); });
   CHECK((err == CO_ERR_NONE || err == CO_ERR_OBJ_RANGE));
   return err == CO_ERR_NONE ? 0 : 0x06090030;
 }
 
-TEST_CASE("SYNC sweep: restricted 11-bit CAN-IDs are refused for any flags; all others are SYNC at once [Y2] [N7]") {
+TEST_CASE("SYNC sweep: each 11-bit CAN-ID is refused if restricted and otherwise received as SYNC at once [Y2] [N7]") {
   if (CO_RESTRICTED_IDS != 0) {
-    return;
+    return;  // restricted CAN-IDs are configured as permitted
   }
   SyncNode node(with_rpdo());
   node.start();
@@ -32,13 +35,13 @@ TEST_CASE("SYNC sweep: restricted 11-bit CAN-IDs are refused for any flags; all 
   std::uint8_t value = 0;
   for (std::uint32_t id = 0; id <= 0x7FF; ++id) {
     CAPTURE(id);
-    const bool legal = !is_restricted(id);
-    CHECK(write(node, 0x80000000 | id) == (legal || id == current ? 0U : 0x06090030U));
-    CHECK(write(node, id) == (legal ? 0U : 0x06090030U));
-    current = legal ? id : current;
+    const bool is_permitted = !is_restricted(id);
+    CHECK(write_sync_id(node, 0x80000000 | id) == (is_permitted || id == current ? 0U : 0x06090030U));
+    CHECK(write_sync_id(node, id) == (is_permitted ? 0U : 0x06090030U));
+    current = is_permitted ? id : current;
     CHECK(node.sync_id == current);
-    if (!legal || id == 0x201 || id == 0x601) {
-      continue;
+    if (!is_permitted || id == 0x201 || id == 0x601) {
+      continue;  // 201h and 601h are those of the RPDO and the SDO server, too
     }
     node.rx(CO_IF_FRM{0x201, {++value}, 1});
     node.rx(CO_IF_FRM{id, {}, 0});
@@ -47,9 +50,9 @@ TEST_CASE("SYNC sweep: restricted 11-bit CAN-IDs are refused for any flags; all 
   }
 }
 
-TEST_CASE("SYNC sweep: restricted CAN-IDs are refused by SDO: 0609 0030h [Y2] [Other 10]") {
+TEST_CASE("SYNC sweep: restricted CAN-IDs are refused by SDO with 0609 0030h for any flags [Y2] [Other 10]") {
   if (CO_RESTRICTED_IDS != 0) {
-    return;
+    return;  // restricted CAN-IDs are configured as permitted
   }
   SyncNode node(with_rpdo());
   for (const std::uint32_t id :
@@ -107,7 +110,7 @@ TEST_CASE("SYNC sweep: the receive filter follows 1005h at once [N7]") {
   CHECK(filtered(0x80 | CO_IF_FRM_EXT));
 }
 
-TEST_CASE("SYNC sweep: a table with an invalid CAN-ID has no SYNC and the node runs") {
+TEST_CASE("SYNC sweep: with an invalid CAN-ID in 1005h of the table the node runs without SYNC") {
   for (const std::uint32_t id : {0x00000000U, 0x00000800U, 0x1FFFFFFFU, 0x20000000U, 0x40000000U, 0xFFFFFFFFU}) {
     CAPTURE(id);
     SyncTable table = with_rpdo();
@@ -117,7 +120,7 @@ TEST_CASE("SYNC sweep: a table with an invalid CAN-ID has no SYNC and the node r
     node.start();
     node.rx("201#42");
     node.rx("080#");
-    if (id != 0xFFFFFFFF) {
+    if (id != 0xFFFFFFFF) {  // FFFFFFFFh: producer of the valid 29-bit CAN-ID 1FFFFFFFh
       node.after(100ms);
       node.silent();
       CHECK(node.u8[0] == 0x11);
