@@ -52,8 +52,8 @@ class MergeNode {
   }
 
  private:
-  // Returns the address of a byte of the variable. Byte 0 is the lowest, as on the bus.
-  static std::size_t place_of(const Variable& variable, unsigned byte) {
+  // Returns the offset of a byte of the variable in memory. Byte 0 is the least significant one, as on the bus.
+  static std::size_t offset_of(const Variable& variable, unsigned byte) {
     constexpr bool little_endian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
     return variable.offset + (little_endian ? byte : variable.bytes - 1 - byte);
   }
@@ -68,10 +68,10 @@ class MergeNode {
     unsigned position = 0;
     for (const std::size_t n : order) {
       for (unsigned byte = 0; byte < variables[n].bytes; ++byte, ++position) {
-        const std::size_t place = place_of(variables[n], byte);
-        out.Data[position] = memory[place];
+        const std::size_t offset = offset_of(variables[n], byte);
+        out.Data[position] = memory[offset];
         in.Data[position] = static_cast<std::uint8_t>(0x51 + position);
-        after[place] = in.Data[position];
+        after[offset] = in.Data[position];
       }
     }
     node->trigger(0);

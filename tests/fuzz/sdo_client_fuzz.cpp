@@ -529,7 +529,7 @@ class Bench {
       peer.model.close(code);
       return;
     }
-    if (passes_ && peer.model.remind(bytes)) {
+    if (passes_ && peer.model.repeat_acknowledge(bytes)) {
       return;
     }
     require(peer.model.segment() == bytes, "a segment is that of the standard");

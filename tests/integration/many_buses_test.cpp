@@ -31,7 +31,8 @@ struct Variables {
   std::uint32_t serial_number;
 };
 
-std::uint8_t* place_of(const CO_OBJ& obj, const CO_NODE* node) {
+// Returns the address of the node's variable of an entry.
+std::uint8_t* address_of(const CO_OBJ& obj, const CO_NODE* node) {
   return static_cast<std::uint8_t*>(CONodeGetUser(node)) + std::uintptr_t{obj.Data};
 }
 
@@ -41,12 +42,12 @@ std::uint32_t size_of(CO_OBJ*, CO_NODE*, std::uint32_t) {
 }
 
 CO_ERR read_own(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
-  std::memcpy(buffer, place_of(*obj, node), size);
+  std::memcpy(buffer, address_of(*obj, node), size);
   return CO_ERR_NONE;
 }
 
 CO_ERR write_own(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
-  std::memcpy(place_of(*obj, node), buffer, size);
+  std::memcpy(address_of(*obj, node), buffer, size);
   return CO_ERR_NONE;
 }
 

@@ -26,30 +26,31 @@ using test::Milliseconds;
 using test::SdoPair;
 using Fault = VirtualBus::Fault;
 
-// A transfer that knows which of its frames may be lost without an abort.
-class Course {
+enum class FaultsAtPosition { all, one_in_turn };  // every kind of fault, or one kind, which alternates
+
+// Transfers of one object with a fault. Checks that transfers succeed whose lost frame has to be repeated.
+class DisturbedTransfer {
  public:
-  Course(std::uint32_t bytes, bool block)
+  DisturbedTransfer(std::uint32_t bytes, bool block)
       : segments_((bytes + 6) / 7),
         blocks_(USE_CSDO_BLOCK != 0 && block && bytes >= CO_CSDO_BLOCK),
         pair_({bytes, block}) {}
 
-  // Disturbs every \a stride-th position, the first and the last ones. \a in_turn: one kind of fault for each, else
-  // all.
-  void run(Direction direction, std::uint32_t stride, bool in_turn) {
+  // Runs transfers with a fault at every \a stride-th frame, at the first five and at the last five frames.
+  void run(Direction direction, std::uint32_t stride, FaultsAtPosition faults) {
     frames_ = pair_.count_frames(direction);
     for (std::uint32_t position = 1; position <= frames_; ++position) {
       if (position <= 5 || position + 5 > frames_ || position % stride == 0) {
         CAPTURE(position);
-        disturb_at(direction, position, in_turn);
+        disturb_at(direction, position, faults);
       }
     }
   }
 
  private:
-  void disturb_at(Direction direction, std::uint32_t position, bool in_turn) {
+  void disturb_at(Direction direction, std::uint32_t position, FaultsAtPosition faults) {
     for (std::size_t n = 0; n < std::size(frame_faults); ++n) {
-      if (in_turn && position % std::size(frame_faults) != n) {
+      if (faults == FaultsAtPosition::one_in_turn && position % std::size(frame_faults) != n) {
         continue;
       }
       CAPTURE(n);
@@ -61,16 +62,16 @@ class Course {
     }
   }
 
-  // Returns true if a lost frame is repeated: all frames within the blocks are, but not those that begin the transfer,
-  // or end it after the last segment. [D11] [D12] Nor is the only segment of a last block: after a repeated acknowledge
-  // before it, the receiver cannot detect that there was one. In blocks of one segment that is true of each.
+  // Returns true if a lost frame has to be repeated: every frame within the blocks, but not those that begin the
+  // transfer or end it after the last segment. [D11] [D12] The only segment of a block is not repeated either: if it is
+  // lost, the receiver repeats the previous acknowledge, and the sender cannot detect the loss.
   bool is_repeated(Direction direction, std::uint32_t position) const {
     const std::uint32_t blksize = direction == Direction::download ? CO_SDO_BUF_SEG : 127;
     const std::uint32_t last_segment = frames_ - 3;
     const std::uint32_t first = direction == Direction::download ? 2 : 4;
     const std::uint32_t last = direction == Direction::download ? last_segment + 1 : last_segment;
-    const bool alone = blksize == 1 || ((segments_ - 1) % blksize == 0 && position == last_segment);
-    return blocks_ && position >= first && position <= last && !alone;
+    const bool is_only_segment = blksize == 1 || ((segments_ - 1) % blksize == 0 && position == last_segment);
+    return blocks_ && position >= first && position <= last && !is_only_segment;
   }
 
   std::uint32_t segments_;
@@ -79,8 +80,8 @@ class Course {
   SdoPair pair_;
 };
 
-// Disturbs transfers of a client whose time-out is longer than that of the server.
-void run_patiently(Direction direction, std::uint32_t bytes, bool block) {
+// Runs transfers with each fault at each frame. The client's time-out is longer than that of the server.
+void run_with_longer_client_time_out(Direction direction, std::uint32_t bytes, bool block) {
   SdoPair pair({bytes, block});
   const std::uint32_t frames = pair.count_frames(direction);
   for (std::uint32_t position = 1; position <= frames; ++position) {
@@ -93,8 +94,8 @@ void run_patiently(Direction direction, std::uint32_t bytes, bool block) {
   }
 }
 
-// Starts the next transfer in the callback of the disturbed one.
-void run_hastily(SdoPair& pair, Direction direction, const FrameFault& fault, std::uint32_t position) {
+// Runs a transfer with a fault, and starts the next transfer in its callback.
+void run_with_restart_in_callback(SdoPair& pair, Direction direction, const FrameFault& fault, std::uint32_t position) {
   std::string wrong = "no callback";
   pair.line.bus.add_rule({fault.kind, {}, position, 1, fault.delay});
   pair.device_client().on_end = [&] {
@@ -113,34 +114,37 @@ void run_hastily(SdoPair& pair, Direction direction, const FrameFault& fault, st
   pair.check_next();
 }
 
-void run_courses(Direction direction, bool block) {
+void disturb_all_sizes(Direction direction, bool block) {
   for (const std::uint32_t bytes : {1u, 7u, 8u, 28u, 29u, 888u, 889u, 890u, 891u, 897u, 1800u, 2000u}) {
     CAPTURE(bytes);
-    Course(bytes, block).run(direction, test::stride(3), bytes > 100 && !block && !all_faults());
+    DisturbedTransfer(bytes, block)
+        .run(direction, test::stride(3),
+             bytes > 100 && !block && !all_faults() ? FaultsAtPosition::one_in_turn : FaultsAtPosition::all);
   }
 }
 
 }  // namespace
 
-TEST_CASE(
-    "SDO faults: a block upload with one frame lost, doubled, late or swapped gives the right data or none [T11]") {
-  run_courses(Direction::upload, true);
-}
-
-TEST_CASE("SDO faults: a block download with one frame lost, doubled, late or swapped is right or reported [T11]") {
-  run_courses(Direction::download, true);
+TEST_CASE("SDO faults: a block upload with one frame lost/doubled/late/swapped gives the right data or none [T11]") {
+  disturb_all_sizes(Direction::upload, true);
 }
 
 TEST_CASE(
-    "SDO faults: a segmented upload with one frame lost, doubled, late or swapped gives right data or none [T11]") {
-  run_courses(Direction::upload, false);
+    "SDO faults: a block download with one frame lost/doubled/late/swapped is correct or reports a failure [T11]") {
+  disturb_all_sizes(Direction::download, true);
 }
 
-TEST_CASE("SDO faults: a segmented download with one frame lost, doubled, late or swapped is right or reported [T11]") {
-  run_courses(Direction::download, false);
+TEST_CASE(
+    "SDO faults: a segmented upload with one frame lost/doubled/late/swapped gives the right data or none [T11]") {
+  disturb_all_sizes(Direction::upload, false);
 }
 
-TEST_CASE("SDO faults: without a fault every size up to 2000 bytes (without blocks: 300) is transferred") {
+TEST_CASE(
+    "SDO faults: a segmented download with one frame lost/doubled/late/swapped is correct or reports a failure [T11]") {
+  disturb_all_sizes(Direction::download, false);
+}
+
+TEST_CASE("SDO faults: without a fault every size is transferred up to 2000 bytes by block and 300 by segments") {
   for (const bool block : {true, false}) {
     SdoPair pair({1, block});
     for (std::uint32_t bytes = 1; bytes <= (block ? 2000 : 300); ++bytes) {
@@ -153,17 +157,17 @@ TEST_CASE("SDO faults: without a fault every size up to 2000 bytes (without bloc
   }
 }
 
-TEST_CASE("SDO faults: one frame lost, doubled, late or swapped, and the server has the shorter time-out [T11] [D18]") {
+TEST_CASE("SDO faults: one fault gives no wrong data if the server has the shorter time-out [T11] [D18]") {
   for (const std::uint32_t bytes : {1u, 8u, 28u, 29u, 224u}) {
     for (const Direction direction : both_directions) {
       CAPTURE(bytes);
-      run_patiently(direction, bytes, true);
-      run_patiently(direction, bytes, false);
+      run_with_longer_client_time_out(direction, bytes, true);
+      run_with_longer_client_time_out(direction, bytes, false);
     }
   }
 }
 
-TEST_CASE("SDO faults: the callback of a disturbed transfer starts the next one [T11]") {
+TEST_CASE("SDO faults: a transfer that is started in the callback of a disturbed one is correct [T11]") {
   for (const std::uint32_t bytes : {4u, 28u, 224u}) {
     SdoPair pair({bytes});
     for (const Direction direction : both_directions) {
@@ -174,19 +178,21 @@ TEST_CASE("SDO faults: the callback of a disturbed transfer starts the next one 
           CAPTURE(position);
           CAPTURE(fault.kind);
           CAPTURE(fault.delay.count());
-          run_hastily(pair, direction, fault, position);
+          run_with_restart_in_callback(pair, direction, fault, position);
         }
       }
     }
   }
 }
 
-TEST_CASE("SDO faults: 65536 bytes, some frames (LEXICAN_SDO_FAULTS=all: each) lost, doubled, late or swapped [T11]") {
+TEST_CASE("SDO faults: a transfer of 65536 bytes with a fault at some frame is correct or reports a failure [T11]") {
   for (const bool block : {true, false}) {
     CAPTURE(block);
-    Course course(65536, block);
+    // With LEXICAN_SDO_FAULTS=all: at each frame.
+    DisturbedTransfer transfer(65536, block);
     for (const Direction direction : both_directions) {
-      course.run(direction, all_faults() ? 1 : 1511, !all_faults() || !block);
+      transfer.run(direction, all_faults() ? 1 : 1511,
+                   !all_faults() || !block ? FaultsAtPosition::one_in_turn : FaultsAtPosition::all);
     }
   }
 }

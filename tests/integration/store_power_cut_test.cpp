@@ -33,14 +33,17 @@ const CO_NVM_SHAPE shapes[] = {
     {1024, 16, 128},
 };
 
+const CO_NVM_SHAPE& eeprom = shapes[0];
+const CO_NVM_SHAPE& small_flash = shapes[2];
+
 std::int16_t no_frame(void*, CO_IF_FRM*) { return 0; }
-std::int16_t no_place(void*, const CO_IF_FRM*) { return 0; }
+std::int16_t refuse_frame(void*, const CO_IF_FRM*) { return 0; }
 std::uint32_t no_time(void*) { return 0; }
 const CO_IF_CAN_DRV_EX no_bus = {
-    [](void*) {}, [](void*, std::uint32_t) {}, no_frame, no_place, [](void*) {}, [](void*) {}, nullptr, nullptr};
+    [](void*) {}, [](void*, std::uint32_t) {}, no_frame, refuse_frame, [](void*) {}, [](void*) {}, nullptr, nullptr};
 const CO_IF_TIMER_DRV_EX no_timer = {[](void*, std::uint32_t) {}, no_time, nullptr};
 
-// Variables of the device; its memory is exchangeable.
+// Variables of the node under test. Only Device::nvm is copied with a Device: boot() sets the others.
 Values ram;
 std::uint8_t error_register;
 CO_PARA group = {0, sizeof(Values), &ram, &defaults, CO_RESET_NODE, nullptr, CO_PARA___E};
@@ -52,7 +55,7 @@ CO_OBJ dictionary[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DA
 CO_NODE_EXT ext;
 CO_NODE node;
 
-// Memory of the device, with power failures.
+// The node under test with its non-volatile memory, which survives power failures.
 struct Device {
   explicit Device(CO_NVM_SHAPE shape) : nvm(shape) {}
 
@@ -97,22 +100,23 @@ struct Device {
 struct Change {
   CO_ERR run(Device& device) const { return values == nullptr ? device.restore() : device.save(*values); }
   [[nodiscard]] const Values& after() const { return values == nullptr ? defaults : *values; }
-  const Values* values;  // null: "load" (restore defaults)
+  const Values* values;  // values to store; null: "load" (restore defaults)
 };
 
-const Change to_first{&first};
-const Change to_second{&second};
-const Change to_third{&third};
-const Change to_defaults{nullptr};
+const Change store_first{&first};
+const Change store_second{&second};
+const Change store_third{&third};
+const Change load_defaults{nullptr};
 
 constexpr PartialWrite all_partial_writes[] = {PartialWrite::untouched, PartialWrite::half, PartialWrite::garbage,
                                                PartialWrite::done};
 
-// Repeats a change with a power failure at each of its steps, until it is complete. Calls then(device, values found)
-// after each.
+// Runs a change with a power failure at each of its steps. Checks that the group then has its old values or those of
+// the change, and calls then(device, values found). Returns the number of steps. A step is one byte that is programmed
+// or erased.
 template <class Function>
-std::uint64_t cut_everywhere(const Device& before, const Values& old, const Change& change, PartialWrite partial_write,
-                             Function then) {
+std::uint64_t cut_at_each_step(const Device& before, const Values& old, const Change& change,
+                               PartialWrite partial_write, Function then) {
   std::uint64_t cuts = 0;
   for (std::uint64_t step = 1;; ++step) {
     Device device = before;
@@ -139,13 +143,17 @@ struct Start {
 
 const Start starts[] = {
     {"blank", {}},
-    {"stored once", {to_first}},
-    {"stored twice", {to_first, to_second}},
-    {"restored", {to_first, to_defaults}},
+    {"stored once", {store_first}},
+    {"stored twice", {store_first, store_second}},
+    {"restored", {store_first, load_defaults}},
 };
+
+const Start& stored_once = starts[1];
+const Start& stored_twice = starts[2];
 
 const Values& last_of(const Start& start) { return start.changes.empty() ? defaults : start.changes.back().after(); }
 
+// Returns a device on which the changes of \a start are complete.
 Device device_after(const CO_NVM_SHAPE& shape, const Start& start) {
   Device device(shape);
   device.boot();
@@ -156,15 +164,15 @@ Device device_after(const CO_NVM_SHAPE& shape, const Start& start) {
   return device;
 }
 
-TEST_CASE("parameters: after power off at every byte a group has its old or its new values [T13]") {
+TEST_CASE("parameters: after a power failure at any byte of a store a group has its old or its new values [T13]") {
   std::uint64_t cuts = 0;
   for (const CO_NVM_SHAPE& shape : shapes) {
     for (const Start& start : starts) {
       const Device before = device_after(shape, start);
-      for (const Change& change : {to_first, to_second, to_defaults}) {
+      for (const Change& change : {store_first, store_second, load_defaults}) {
         for (const PartialWrite partial_write : all_partial_writes) {
           CAPTURE(start.name);
-          cuts += cut_everywhere(before, last_of(start), change, partial_write, [](Device&, const Values&) {});
+          cuts += cut_at_each_step(before, last_of(start), change, partial_write, [](Device&, const Values&) {});
         }
       }
     }
@@ -173,14 +181,14 @@ TEST_CASE("parameters: after power off at every byte a group has its old or its 
   CHECK(cuts > 5000);
 }
 
-TEST_CASE("parameters: power off at every pair of bytes of two consecutive stores gives old or new values [T13]") {
+TEST_CASE("parameters: after power failures in two consecutive stores a group has its old or its new values [T13]") {
   std::uint64_t pairs = 0;
-  for (const CO_NVM_SHAPE& shape : {shapes[0], shapes[2]}) {
+  for (const CO_NVM_SHAPE& shape : {eeprom, small_flash}) {
     for (const Start& start : starts) {
       const Device before = device_after(shape, start);
       for (const PartialWrite partial_write : all_partial_writes) {
-        cut_everywhere(before, last_of(start), to_third, partial_write, [&](Device& device, const Values& found) {
-          pairs += cut_everywhere(device, found, to_second, partial_write, [](Device&, const Values&) {});
+        cut_at_each_step(before, last_of(start), store_third, partial_write, [&](Device& device, const Values& found) {
+          pairs += cut_at_each_step(device, found, store_second, partial_write, [](Device&, const Values&) {});
         });
       }
     }
@@ -189,24 +197,26 @@ TEST_CASE("parameters: power off at every pair of bytes of two consecutive store
   CHECK(pairs > 50000);
 }
 
+// Returns the address of one of the two slots of the group.
 std::uint32_t slot_start(const CO_NVM_SHAPE& shape, unsigned slot) {
   const std::uint32_t unit = shape.EraseSize != 0 ? shape.EraseSize : shape.ProgramSize;
   return slot * CO_PARA_SPACE(sizeof(Values), unit, shape.ProgramSize) / 2;
 }
 
-struct OldHeader {
+// Header of a record in the format of version 0.1.0.
+struct HeaderV010 {
   std::uint32_t magic;
   std::uint32_t version;
   std::uint32_t size;  // FFFFFFFFh for "load"
   std::uint32_t generation;
   std::uint32_t crc;
 };
-constexpr std::uint32_t old_magic = 0x314E584C;
+constexpr std::uint32_t magic_v010 = 0x314E584C;
 constexpr std::uint32_t no_data = 0xFFFFFFFF;
 
-std::uint32_t crc_of(const OldHeader& header, const std::uint8_t* data) {
+std::uint32_t crc_of(const HeaderV010& header, const std::uint8_t* data) {
   co::wire::Crc32 crc;
-  crc.add(reinterpret_cast<const std::uint8_t*>(&header), offsetof(OldHeader, crc));
+  crc.add(reinterpret_cast<const std::uint8_t*>(&header), offsetof(HeaderV010, crc));
   if (header.size != no_data) {
     crc.add(data, sizeof(Values));
   }
@@ -214,23 +224,23 @@ std::uint32_t crc_of(const OldHeader& header, const std::uint8_t* data) {
 }
 
 // Writes a record in the format of version 0.1.0. values: null for the record that "load" writes.
-void put_old_record(Device& device, unsigned slot, std::uint32_t generation, const Values* values) {
+void write_record_v010(Device& device, unsigned slot, std::uint32_t generation, const Values* values) {
   std::uint8_t* const start = &device.nvm.bytes[slot_start(device.nvm.shape, slot)];
   std::uint8_t* const data = start + CO_PARA_ROUND_UP(20, device.nvm.shape.ProgramSize);
   if (values != nullptr) {
     std::memcpy(data, values, sizeof *values);
   }
-  OldHeader header = {old_magic, 0, values != nullptr ? std::uint32_t{sizeof *values} : no_data, generation, 0};
+  HeaderV010 header = {magic_v010, 0, values != nullptr ? std::uint32_t{sizeof *values} : no_data, generation, 0};
   header.crc = crc_of(header, data);
   std::memcpy(start, &header, sizeof header);
 }
 
-bool has_old_record(const Device& device) {
+bool has_record_v010(const Device& device) {
   for (const unsigned slot : {0U, 1U}) {
     const std::uint8_t* const start = &device.nvm.bytes[slot_start(device.nvm.shape, slot)];
-    OldHeader header;
+    HeaderV010 header;
     std::memcpy(&header, start, sizeof header);
-    if (header.magic == old_magic &&
+    if (header.magic == magic_v010 &&
         header.crc == crc_of(header, start + CO_PARA_ROUND_UP(20, device.nvm.shape.ProgramSize))) {
       return true;
     }
@@ -238,7 +248,8 @@ bool has_old_record(const Device& device) {
   return false;
 }
 
-struct OldRecords {
+// Records of version 0.1.0 in the two slots. older and newer: values; null for the record that "load" writes.
+struct RecordsV010 {
   const Values* older;
   bool has_newer;
   const Values* newer;
@@ -247,12 +258,14 @@ struct OldRecords {
     return values != nullptr ? *values : defaults;
   }
 };
-constexpr OldRecords all_old_records[] = {
+constexpr RecordsV010 all_records_v010[] = {
     {&first, false, nullptr}, {nullptr, false, nullptr}, {&first, true, &second}, {&first, true, nullptr}};
 
-// Cuts the power at each step of a power-on that rewrites old records, and calls then(device).
+// Cuts the power at each step of a power-on that rewrites records of version 0.1.0. Checks that the group has these
+// values, and calls then(device). Returns the number of steps.
 template <class Function>
-std::uint64_t cut_power_on(const Device& before, const Values& values, PartialWrite partial_write, Function then) {
+std::uint64_t cut_during_power_on(const Device& before, const Values& values, PartialWrite partial_write,
+                                  Function then) {
   std::uint64_t cuts = 0;
   for (std::uint64_t step = 1;; ++step, ++cuts) {
     Device device = before;
@@ -261,30 +274,30 @@ std::uint64_t cut_power_on(const Device& before, const Values& values, PartialWr
     REQUIRE(device.error == CO_ERR_NONE);
     REQUIRE_FALSE(device.nvm.misused);
     if (!device.nvm.is_off) {
-      REQUIRE_FALSE(has_old_record(device));
+      REQUIRE_FALSE(has_record_v010(device));
       return cuts;
     }
     then(device);
   }
 }
 
-TEST_CASE("parameters: power off at every byte and pair of bytes while old records are rewritten [T13]") {
+TEST_CASE("parameters: power failures while records of version 0.1.0 are rewritten do not change the values [T13]") {
   std::uint64_t cuts = 0;
   for (const CO_NVM_SHAPE& shape : shapes) {
-    for (const OldRecords& records : all_old_records) {
+    for (const RecordsV010& records : all_records_v010) {
       Device before(shape);
-      put_old_record(before, 0, 7, records.older);
+      write_record_v010(before, 0, 7, records.older);
       if (records.has_newer) {
-        put_old_record(before, 1, 8, records.newer);
+        write_record_v010(before, 1, 8, records.newer);
       }
       for (const PartialWrite partial_write : all_partial_writes) {
-        cuts += cut_power_on(before, records.last(), partial_write, [&](const Device& device) {
+        cuts += cut_during_power_on(before, records.last(), partial_write, [&](const Device& device) {
           if (shape.EraseSize != 0) {
             return;  // pairs of power failures take too long with flash
           }
-          cuts += cut_power_on(device, records.last(), partial_write, [&](Device& again) {
+          cuts += cut_during_power_on(device, records.last(), partial_write, [&](Device& again) {
             REQUIRE(again.boot() == records.last());
-            REQUIRE_FALSE(has_old_record(again));
+            REQUIRE_FALSE(has_record_v010(again));
           });
         });
       }
@@ -294,43 +307,43 @@ TEST_CASE("parameters: power off at every byte and pair of bytes while old recor
   CHECK(cuts > 5000);
 }
 
-TEST_CASE("parameters: after any power failure while old records are rewritten, stores are atomic [T13]") {
-  for (const CO_NVM_SHAPE& shape : {shapes[0], shapes[2]}) {
+TEST_CASE("parameters: stores are atomic after a power failure while records of version 0.1.0 are rewritten [T13]") {
+  for (const CO_NVM_SHAPE& shape : {eeprom, small_flash}) {
     Device before(shape);
-    put_old_record(before, 0, 7, &first);
-    put_old_record(before, 1, 8, &second);
-    cut_power_on(before, second, PartialWrite::half, [](const Device& device) {
+    write_record_v010(before, 0, 7, &first);
+    write_record_v010(before, 1, 8, &second);
+    cut_during_power_on(before, second, PartialWrite::half, [](const Device& device) {
       Device next = device;
       REQUIRE(next.boot() == second);
-      cut_everywhere(next, second, to_third, PartialWrite::garbage, [](Device&, const Values&) {});
+      cut_at_each_step(next, second, store_third, PartialWrite::garbage, [](Device&, const Values&) {});
     });
   }
 }
 
-TEST_CASE("parameters: after any power failure the next store works and is kept by the following one [T13]") {
+TEST_CASE("parameters: after a power failure at any byte of a store the two next stores succeed [T13]") {
   for (const CO_NVM_SHAPE& shape : shapes) {
-    const Device before = device_after(shape, starts[2]);
+    const Device before = device_after(shape, stored_twice);
     for (const PartialWrite partial_write : all_partial_writes) {
-      cut_everywhere(before, second, to_third, partial_write, [](Device& device, const Values&) {
-        REQUIRE(to_first.run(device) == CO_ERR_NONE);
+      cut_at_each_step(before, second, store_third, partial_write, [](Device& device, const Values&) {
+        REQUIRE(store_first.run(device) == CO_ERR_NONE);
         REQUIRE(device.boot() == first);
-        REQUIRE(to_second.run(device) == CO_ERR_NONE);
+        REQUIRE(store_second.run(device) == CO_ERR_NONE);
         REQUIRE(device.boot() == second);
       });
     }
   }
 }
 
-TEST_CASE("parameters: writes without effect that are reported as done are detected: the old values stay [T13]") {
+TEST_CASE("parameters: if the memory reports writes that it has not done the store fails and old values remain [T13]") {
   for (const CO_NVM_SHAPE& shape : shapes) {
-    const Device before = device_after(shape, starts[2]);
+    const Device before = device_after(shape, stored_twice);
     for (std::uint64_t step = 1; step < 400; ++step) {
       for (const std::uint64_t number : {1U, 3U, 1000U}) {
         Device device = before;
         device.nvm.steps = 0;
         device.nvm.ignore_from = step;
         device.nvm.ignore_to = step + number;
-        const CO_ERR err = to_third.run(device);
+        const CO_ERR err = store_third.run(device);
         const Values found = device.boot();
         REQUIRE(found == (err == CO_ERR_NONE ? third : second));
       }
@@ -338,9 +351,9 @@ TEST_CASE("parameters: writes without effect that are reported as done are detec
   }
 }
 
-TEST_CASE("parameters: a flipped bit in a record is detected: previous values or defaults are loaded") {
+TEST_CASE("parameters: after a flipped bit in a record its values or the previous ones or the defaults are loaded") {
   for (const CO_NVM_SHAPE& shape : shapes) {
-    for (const Start& start : {starts[1], starts[2]}) {
+    for (const Start& start : {stored_once, stored_twice}) {
       const Device before = device_after(shape, start);
       for (std::size_t bit = 0; bit < before.nvm.bytes.size() * 8; ++bit) {
         Device device = before;
@@ -354,13 +367,13 @@ TEST_CASE("parameters: a flipped bit in a record is detected: previous values or
   }
 }
 
-TEST_CASE("parameters: a read that fails or returns other bytes gives old, new or default values") {
-  const Device before = device_after(shapes[0], starts[2]);
+TEST_CASE("parameters: after a failing or corrupted read at power-on a group has stored values or defaults") {
+  const Device before = device_after(eeprom, stored_twice);
   for (std::uint64_t read = 1; read < 40; ++read) {
-    for (const bool lies : {false, true}) {
+    for (const bool is_corrupted : {false, true}) {
       Device device = before;
       device.nvm.reads = 0;
-      (lies ? device.nvm.corrupt_read : device.nvm.refuse_read) = read;
+      (is_corrupted ? device.nvm.corrupt_read : device.nvm.refuse_read) = read;
       const Values found = device.boot();
       REQUIRE((found == second || found == first || found == defaults));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The protocol controller: class CanNode. Clauses are those of ISO 11898-1:2015.
+// Class CanNode, the protocol controller of one node: a state machine that runs once for each bit time. CanWire calls
+// drive() for all nodes, then sample() with the resulting level of the bus. Clauses are those of ISO 11898-1:2015.
 #include <utility>
 
 #include "can_wire.hpp"
@@ -7,20 +8,20 @@
 namespace test {
 namespace {
 
-constexpr unsigned idle_bits = 11;  // recessive bits of bus integration and of bus-off recovery
-constexpr unsigned flag_bits = 6;
-constexpr unsigned delimiter_bits = 8;
+constexpr unsigned idle_bits = 11;      // recessive bits of bus integration and of bus-off recovery
+constexpr unsigned flag_bits = 6;       // error flag, overload flag
+constexpr unsigned delimiter_bits = 8;  // error delimiter, overload delimiter
 constexpr unsigned intermission_bits = 3;
-constexpr unsigned suspend_bits = 8;
-constexpr unsigned pause_bits = 2;
+constexpr unsigned suspend_bits = 8;  // suspend transmission of an error passive transmitter
+constexpr unsigned pause_bits = 2;    // CanMode::pauses
 constexpr unsigned bus_off_limit = 256;
 
-// Bits after the CRC field.
+// Values of tail_: bits after the CRC field. The end of frame is 3 to 9.
 constexpr int crc_delimiter = 0;
 constexpr int ack_slot = 1;
 constexpr int ack_delimiter = 2;
-constexpr int last_but_one_bit = 8;
-constexpr int last_bit = 9;
+constexpr int last_but_one_bit = 8;  // of the end of frame: a receiver accepts the frame
+constexpr int last_bit = 9;          // a transmitter has completed the frame
 
 }  // namespace
 
@@ -51,11 +52,14 @@ void CanNode::set_counters(unsigned tec, unsigned rec) {
   client_.on_counters();
 }
 
+// Returns the level that the node sends in this bit time.
 bool CanNode::drive() {
   driven_ = output();
   return mode_.is_silent || mode_.is_listen_only ? recessive : driven_;
 }
 
+// Returns the level that the protocol requires in this state, before silent modes suppress it. Begins a transmission if
+// the bus is idle and the client has a frame.
 bool CanNode::output() {
   switch (state_) {
     case State::idle:
@@ -79,10 +83,11 @@ bool CanNode::frame_output() const {
   return acknowledges ? dominant : recessive;
 }
 
+// Processes the level of the bus at the sample point.
 void CanNode::sample(bool bus) {
-  // In loopback the receiver is connected to the own output, in silent mode to both.
-  const bool own_view = mode_.is_silent ? bus && driven_ : bus;
-  const bool level = mode_.is_loopback ? driven_ : own_view;
+  // The receiver sees the bus; in silent mode also the suppressed level of this node; in loopback only that level.
+  const bool bus_and_own = mode_.is_silent ? bus && driven_ : bus;
+  const bool level = mode_.is_loopback ? driven_ : bus_and_own;
   switch (state_) {
     case State::off:
     case State::bus_off: break;
@@ -103,7 +108,8 @@ void CanNode::sample(bool bus) {
   }
 }
 
-// Takes the next frame of the client. The caller puts the first bit on the bus.
+// Gets the next frame of the client. Returns false if there is none, or the mode does not permit transmission. The
+// caller puts the first bit on the bus.
 bool CanNode::begin_transmission() {
   if (mode_.is_listen_only || (mode_.is_silent && !mode_.is_loopback)) {
     return false;
@@ -149,7 +155,8 @@ void CanNode::sample_frame(bool level) {
   end_decoding(decoder_.add(level));
 }
 
-// Returns false if an error was signalled. A lost arbitration makes the node a receiver.
+// Compares the sampled level with the sent one. Returns false if an error was signalled. After a lost arbitration the
+// node is a receiver.
 bool CanNode::check_sent_bit(bool level) {
   const CanBit sent = sent_bits_[sent_];
   if (sent.level == level) {
@@ -169,6 +176,7 @@ bool CanNode::check_sent_bit(bool level) {
   return true;
 }
 
+// Continues the state machine after the decoder has processed a bit.
 void CanNode::end_decoding(CanDecoder::Result result) {
   using Result = CanDecoder::Result;
   switch (result) {
@@ -250,7 +258,7 @@ void CanNode::sample_last_bit(bool level) {
   begin_intermission();
 }
 
-// Counts a received frame. [12.1.4.2 h]
+// Passes a received frame to the client, and decrements the receive error counter. [12.1.4.2 h]
 void CanNode::accept_frame() {
   constexpr unsigned error_passive_limit = 127;
   constexpr unsigned below_limit = 120;  // 119…127 are allowed; bxCAN resets to this value [RM0090, CAN_ESR]
@@ -263,7 +271,8 @@ void CanNode::accept_frame() {
   client_.on_counters();
 }
 
-// Counts an error and begins the error flag, which is active if the node was error active before this error.
+// Reports an error to the client and begins the error flag, which is active if the node was error active before this
+// error. counts: the error counter is incremented.
 void CanNode::signal_error(CanError error, bool counts) {
   const bool is_passive = is_error_passive();
   wire_.records_.push_back({CanRecord::Kind::error, begin_, wire_.now_ + 1, this,

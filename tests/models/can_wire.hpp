@@ -156,19 +156,20 @@ class CanNode {
   std::size_t sent_ = 0;  // bits of sent_bits_ that are on the bus
   int tail_ = -1;         // bit after the CRC field: 0 CRC delimiter, 1 ACK slot, 2 ACK delimiter, 3… end of frame
   bool is_transmitter_ = false;  // of the current frame, until the intermission ends
-  bool has_attempt_ = false;     // the client has not been told the result of its frame
+  bool has_attempt_ = false;     // the result of the client's frame has not been reported to the client
   bool was_sent_ = false;        // the current frame is complete
   std::uint64_t begin_ = 0;      // time of the start of frame
-  bool driven_ = recessive;
+  bool driven_ = recessive;      // level that drive() has determined, before silent modes suppress it
 
   // Flags and waiting times.
-  unsigned count_ = 0;  // bits of the state
+  unsigned count_ = 0;  // bits since the state was entered; while waiting for idle, consecutive recessive bits
   bool is_passive_flag_ = false;
   bool is_overload_ = false;
-  bool flag_level_ = recessive;          // of the equal bits during a passive error flag
-  bool is_ack_error_uncounted_ = false;  // error passive transmitter without acknowledgement
-  unsigned wait_ = 0;                    // bits of State::suspended
-  unsigned sequences_ = 0;
+  bool flag_level_ = recessive;  // of the equal bits during a passive error flag
+  bool is_ack_error_uncounted_ =
+      false;                // acknowledgement error of an error passive transmitter [12.1.4.2 c, exception 1]
+  unsigned wait_ = 0;       // bits of State::suspended
+  unsigned sequences_ = 0;  // of 11 recessive bits, during the recovery from bus-off
   unsigned sequences_needed_ = 0;
 };
 

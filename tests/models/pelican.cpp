@@ -110,9 +110,9 @@ unsigned PeliCan::sample_point() const {
 std::uint32_t PeliCan::status() const {
   std::uint32_t value = 0;
   const bool has_frame = !fifo_.empty() && !is_in_reset();
-  const bool is_whole = !has_frame || fifo_.front().is_complete;
+  const bool is_front_complete = !has_frame || fifo_.front().is_complete;
   value |= has_frame ? 1U << 0 : 0;
-  value |= (options_.kind == PeliCanKind::esp32 ? !is_whole : has_overrun_) ? 1U << 1 : 0;
+  value |= (options_.kind == PeliCanKind::esp32 ? !is_front_complete : has_overrun_) ? 1U << 1 : 0;
   value |= !is_pending_ ? 1U << 2 : 0;
   value |= is_complete_ ? 1U << 3 : 0;
   using State = CanNode::State;
@@ -123,7 +123,7 @@ std::uint32_t PeliCan::status() const {
   value |= waits || node_.is_transmitter() ? 1U << 5 : 0;
   value |= had_error_status_ ? 1U << 6 : 0;
   value |= node_.is_bus_off() ? 1U << 7 : 0;
-  value |= options_.kind == PeliCanKind::esp32c3 && !is_whole ? 1U << 8 : 0;
+  value |= options_.kind == PeliCanKind::esp32c3 && !is_front_complete ? 1U << 8 : 0;
   return value;
 }
 
@@ -399,7 +399,7 @@ bool PeliCan::passes(const CanFrame& frame) const {
 
 std::size_t PeliCan::used_bytes() const {
   std::size_t sum = 0;
-  for (const Stored& one : fifo_) {
+  for (const StoredFrame& one : fifo_) {
     sum += one.bytes.size();
   }
   return sum;
@@ -413,7 +413,7 @@ void PeliCan::on_received(const CanFrame& frame) {
 
 // SJA1000 discards a frame without space. TWAI stores a part of it.
 void PeliCan::store(const CanFrame& frame) {
-  Stored stored{bytes_of(frame), true};
+  StoredFrame stored{bytes_of(frame), true};
   if (used_bytes() + stored.bytes.size() <= fifo_bytes) {
     fifo_.push_back(stored);
     return;

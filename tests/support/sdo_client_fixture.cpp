@@ -61,7 +61,7 @@ SdoClient::~SdoClient() {
 void SdoClient::finish() {
   const std::vector<std::string> left = frames();
   CHECK_MESSAGE(left.empty(), "left unread: ", left.size(), " frames, the first is ", left.empty() ? "" : left[0]);
-  CHECK_MESSAGE(ends.empty(), "callbacks that nobody looked at: ", ends.size());
+  CHECK_MESSAGE(ends.empty(), "callbacks that the test has not checked: ", ends.size());
   on_end = nullptr;
   can.accept_all();
   for (unsigned n = 0; n < CO_CSDO_N; ++n) {
@@ -100,7 +100,7 @@ CO_ERR SdoClient::try_upload(std::uint16_t index, std::uint8_t sub, std::uint32_
   request.key = CO_DEV(index, sub);
   request.memory = guarded(Bytes(size, blank));
   const auto api = [&](std::uint8_t* buffer) {
-    return COCSdoRequestUpload(csdo(client), CO_DEV(index, sub), buffer, size, note_end, timeout);
+    return COCSdoRequestUpload(csdo(client), CO_DEV(index, sub), buffer, size, on_callback, timeout);
   };
   return begin(std::move(request), client, api, at);
 }
@@ -113,7 +113,7 @@ CO_ERR SdoClient::try_download(std::uint16_t index, std::uint8_t sub, const Byte
   request.sent = data;
   const auto size = static_cast<std::uint32_t>(data.size());
   const auto api = [&](std::uint8_t* buffer) {
-    return COCSdoRequestDownload(csdo(client), CO_DEV(index, sub), buffer, size, note_end, timeout);
+    return COCSdoRequestDownload(csdo(client), CO_DEV(index, sub), buffer, size, on_callback, timeout);
   };
   return begin(std::move(request), client, api, at);
 }
@@ -138,11 +138,11 @@ CO_ERR SdoClient::cancel(unsigned client, Where at) {
   return err;
 }
 
-void SdoClient::note_end(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint32_t code) {
+void SdoClient::on_callback(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint32_t code) {
   const OutsideStack outside;
   auto* const fixture = static_cast<Fixture*>(CONodeGetUser(csdo->Node));
   const auto client = static_cast<unsigned>(csdo - csdo->Node->CSdo);
-  static_cast<SdoClient*>(fixture)->note(client, index, sub, code);
+  static_cast<SdoClient*>(fixture)->store_end(client, index, sub, code);
 }
 
 void SdoClient::check_memory_of(const Request& request) {
@@ -155,7 +155,7 @@ void SdoClient::check_memory_of(const Request& request) {
   CHECK_MESSAGE(same, "the buffer of a download has changed");
 }
 
-void SdoClient::note(unsigned client, std::uint16_t index, std::uint8_t sub, std::uint32_t code) {
+void SdoClient::store_end(unsigned client, std::uint16_t index, std::uint8_t sub, std::uint32_t code) {
   Request request = std::move(requests_[client]);
   requests_[client] = Request{};
   CHECK_MESSAGE(request.open, "a callback without a request");

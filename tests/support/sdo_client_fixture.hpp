@@ -8,7 +8,8 @@
 ///     node.rx("585#4F00200511000000");
 ///     node.has_read({0x11});                     // the callback was called once, with code 0
 ///
-/// Guard bytes around the buffers detect wrong accesses. The buffers are released after the callback.
+/// Guard bytes around the buffers detect wrong accesses. The buffers are released after the callback. Parameter \a
+/// client: number of the client, 0 to 2; \a size is in bytes.
 #pragma once
 
 #include "fixture.hpp"
@@ -17,7 +18,7 @@
 
 namespace test {
 
-/// Variables of 1280h + n.
+/// Variables of 1280h + n: COB-IDs of requests (tx) and responses (rx), node-ID of the server.
 struct ClientEntries {
   struct Entry {
     std::uint32_t tx;
@@ -33,15 +34,15 @@ inline ClientEntries local_entries() { return {{{0x601, 0x581, 1}, {0x606, 0x586
 /// Returns the bytes 1, 2, 3, … (modulo 256) from \a first on.
 Bytes counted(std::size_t size, unsigned first = 1);
 
-/// Arguments of a callback, and values of the client at that time.
+/// Arguments of a callback at the end of a transfer, and values of the client at that time.
 struct ClientEnd {
   unsigned client;
   std::uint16_t index;
   std::uint8_t sub;
   std::uint32_t code;
-  std::uint32_t num;
-  std::uint32_t total;
-  Bytes data;  ///< the first num bytes of the buffer
+  std::uint32_t num;    ///< COCSdoGetNum(): bytes transferred
+  std::uint32_t total;  ///< COCSdoGetTotal(): bytes announced by the server
+  Bytes data;           ///< the first num bytes of the buffer
 };
 
 class SdoClient : public ClientEntries, public Fixture {
@@ -61,7 +62,7 @@ class SdoClient : public ClientEntries, public Fixture {
                       unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
   CO_ERR cancel(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
 
-  /// Checks that no callback was called and the transfer is still open.
+  /// Checks that the transfer goes on: no callback was called, and the client is busy.
   void goes_on(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
   /// Checks that one callback was called since the last check, with \a code, and the client is idle.
   ClientEnd ended(std::uint32_t code, unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
@@ -71,6 +72,7 @@ class SdoClient : public ClientEntries, public Fixture {
   ClientEnd has_written(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
 
   CO_CSDO* csdo(unsigned client = 0) { return &node.CSdo[client]; }
+  /// Return COCSdoGetNum(), the bytes transferred, and COCSdoGetTotal(), the bytes that the server has announced.
   std::uint32_t num(unsigned client = 0) const { return COCSdoGetNum(&node.CSdo[client]); }
   std::uint32_t total(unsigned client = 0) const { return COCSdoGetTotal(&node.CSdo[client]); }
   bool is_busy(unsigned client = 0) const { return node.CSdo[client].State == CO_CSDO_STATE_BUSY; }
@@ -89,8 +91,8 @@ class SdoClient : public ClientEntries, public Fixture {
     Bytes sent;    ///< data of a download: must not change
   };
   Setup with_entries(Setup setup);
-  static void note_end(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
-  void note(unsigned client, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
+  static void on_callback(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
+  void store_end(unsigned client, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
   void run(const std::function<void()>& api, Where at);
   CO_ERR begin(Request request, unsigned client, const std::function<CO_ERR(std::uint8_t*)>& api, Where at);
   void check_memory_of(const Request& request);
@@ -100,7 +102,7 @@ class SdoClient : public ClientEntries, public Fixture {
   unsigned in_callback_ = 0;
 };
 
-/// Checks that client 0 works, by an upload of 2001h.
+/// Checks that client 0 transmits requests, by an upload of 2001h.
 inline void check_asks(SdoClient& node) {
   node.start_upload(0x2001, 0, 4);
   node.tx("605#4001200000000000");

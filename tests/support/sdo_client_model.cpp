@@ -38,7 +38,7 @@ void put_crc(SdoBytes& frame, std::uint16_t crc) {
 
 }  // namespace
 
-// The first request --------------------------------------------------------------------------------------------------
+// Initiate -----------------------------------------------------------------------------------------------------------
 
 SdoBytes SdoClientModel::start_upload(const SdoKey& key, std::size_t size) {
   key_ = key;
@@ -97,11 +97,13 @@ void SdoClientModel::close(std::uint32_t code) {
   end_ = code;
 }
 
+// Aborts the transfer. Returns the abort frame.
 SdoClientModel::Answer SdoClientModel::give_up(std::uint32_t code) {
   close(code);
   return abort(code);
 }
 
+// Ends the transfer without an answer.
 SdoClientModel::Answer SdoClientModel::finish(std::uint32_t code) {
   close(code);
   return std::nullopt;
@@ -109,7 +111,7 @@ SdoClientModel::Answer SdoClientModel::finish(std::uint32_t code) {
 
 // Processes an abort of the server. A server without block transfer aborts its initiate: the transfer is then repeated
 // as a segmented or expedited one. An abort with code 0 is reported as a general error, not as success.
-SdoClientModel::Answer SdoClientModel::aborted(const SdoBytes& response) {
+SdoClientModel::Answer SdoClientModel::abort_received(const SdoBytes& response) {
   const std::uint32_t code = number_in(response);
   if (state_ == State::initiated && by_block_ && (code == unknown_command || code == general_error)) {
     by_block_ = false;
@@ -118,7 +120,7 @@ SdoClientModel::Answer SdoClientModel::aborted(const SdoBytes& response) {
   return finish(code != 0 ? code : general_error);
 }
 
-// Answers ------------------------------------------------------------------------------------------------------------
+// Responses of the server ---------------------------------------------------------------------------------------------
 
 std::optional<SdoBytes> SdoClientModel::answer(const SdoBytes& response) {
   if (state_ == State::idle) {
@@ -128,27 +130,27 @@ std::optional<SdoBytes> SdoClientModel::answer(const SdoBytes& response) {
     return std::nullopt;
   }
   if (state_ == State::block_upload && response[0] != 0x80) {
-    return take_in_block(response);
+    return receive_block_segment(response);
   }
-  if (state_ == State::block_upload_end && is_last_again(response) && !is_right_end(response)) {
+  if (state_ == State::block_upload_end && repeats_last_segment(response) && !is_correct_end(response)) {
     return std::nullopt;
   }
-  return response[0] == 0x80 ? aborted(response) : answer_in_state(response);
+  return response[0] == 0x80 ? abort_received(response) : answer_in_state(response);
 }
 
 SdoClientModel::Answer SdoClientModel::answer_in_state(const SdoBytes& response) {
   const std::uint8_t command = response[0];
   switch (state_) {
     case State::initiated: return is_upload_ ? upload_initiated(response) : download_initiated(response);
-    case State::upload: return command < 0x20 ? take(response) : give_up(unknown_command);
-    case State::download: return (command & 0xEFU) == 0x20 ? segment_taken(response) : give_up(unknown_command);
+    case State::upload: return command < 0x20 ? receive_segment(response) : give_up(unknown_command);
+    case State::download: return (command & 0xEFU) == 0x20 ? segment_confirmed(response) : give_up(unknown_command);
     case State::block_upload_end:
       return (command & 0xE3U) == 0xC1 ? end_block_upload(response) : give_up(unknown_command);
     case State::block_download:
       if ((command & 0xFBU) == 0xA0) {  // repeated by a server that was waiting for segments
         return std::nullopt;
       }
-      return command == 0xA2 ? block_taken(response) : give_up(unknown_command);
+      return command == 0xA2 ? block_confirmed(response) : give_up(unknown_command);
     case State::block_download_end: return command == 0xA1 ? finish(0) : give_up(unknown_command);
     default: return give_up(unknown_command);
   }
@@ -160,24 +162,24 @@ SdoClientModel::Answer SdoClientModel::upload_initiated(const SdoBytes& response
   const std::uint8_t command = response[0];
   if ((command & 0xF0U) == 0x40) {
     if ((command & 0x02U) != 0) {
-      return take_expedited(response);
+      return receive_expedited(response);
     }
     state_ = State::upload;
-    return take_size(response, (command & 0x01U) != 0, 0x60);
+    return receive_size(response, (command & 0x01U) != 0, 0x60);
   }
   if (by_block_ && (command & 0xF9U) == 0xC0) {
     state_ = State::block_upload;
     has_crc_ = (command & 0x04U) != 0;
     seq_ = 0;
-    heard_ = false;
-    return take_size(response, (command & 0x02U) != 0, 0xA3);
+    has_segment_ = false;
+    return receive_size(response, (command & 0x02U) != 0, 0xA3);
   }
   return give_up(unknown_command);
 }
 
 // Completes an expedited upload. If the server indicates no size, the data have the size of the buffer, at most 4
 // bytes.
-SdoClientModel::Answer SdoClientModel::take_expedited(const SdoBytes& response) {
+SdoClientModel::Answer SdoClientModel::receive_expedited(const SdoBytes& response) {
   const bool has_size = (response[0] & 0x01U) != 0;
   const std::size_t n = has_size ? 4U - ((response[0] >> 2) & 3U) : std::min<std::size_t>(size_, 4);
   if (n > size_) {
@@ -187,8 +189,9 @@ SdoClientModel::Answer SdoClientModel::take_expedited(const SdoBytes& response) 
   return finish(0);
 }
 
-SdoClientModel::Answer SdoClientModel::take_size(const SdoBytes& response, bool told, unsigned next) {
-  if (told) {
+// Stores the size that the server indicates, if any. Returns the next request, with the command \a next.
+SdoClientModel::Answer SdoClientModel::receive_size(const SdoBytes& response, bool has_size, unsigned next) {
+  if (has_size) {
     total_ = number_in(response);
   }
   if (total_.value_or(0) > size_) {
@@ -197,10 +200,12 @@ SdoClientModel::Answer SdoClientModel::take_size(const SdoBytes& response, bool 
   return SdoBytes{static_cast<std::uint8_t>(next)};
 }
 
-SdoClientModel::Answer SdoClientModel::take(const SdoBytes& response) {
+// Processes a segment of a segmented upload.
+SdoClientModel::Answer SdoClientModel::receive_segment(const SdoBytes& response) {
   const std::size_t left = total_.value_or(0) - data_.size();
-  const bool is_open = (response[0] & 0x0FU) == 0x01 && total_ && left > 0 && left <= segment_bytes;
-  const std::size_t n = is_open ? left : segment_bytes - ((response[0] >> 1) & 7U);
+  // In a last segment, n = 0 may mean that the number of unused bytes is not indicated.
+  const bool is_unspecified = (response[0] & 0x0FU) == 0x01 && total_ && left > 0 && left <= segment_bytes;
+  const std::size_t n = is_unspecified ? left : segment_bytes - ((response[0] >> 1) & 7U);
   const bool last = (response[0] & 0x01U) != 0;
   if ((response[0] & 0x10U) != toggle_) {
     return give_up(wrong_toggle);
@@ -249,7 +254,7 @@ SdoBytes SdoClientModel::next_segment() const {
   return frame;
 }
 
-SdoClientModel::Answer SdoClientModel::segment_taken(const SdoBytes& response) {
+SdoClientModel::Answer SdoClientModel::segment_confirmed(const SdoBytes& response) {
   if ((response[0] & 0x10U) != toggle_) {
     return give_up(wrong_toggle);
   }
@@ -260,21 +265,23 @@ SdoClientModel::Answer SdoClientModel::segment_taken(const SdoBytes& response) {
 
 // Block upload. data_ contains done_ bytes of previous blocks, and the bytes of the current one. ---------------------
 
-SdoClientModel::Answer SdoClientModel::take_in_block(const SdoBytes& response) {
+// Processes a segment of a block upload. Ignores the repeated last segment of the previous block, which the client
+// receives before any segment of this block.
+SdoClientModel::Answer SdoClientModel::receive_block_segment(const SdoBytes& response) {
   const std::size_t number = response[0] & 0x7FU;
   const bool last = (response[0] & 0x80U) != 0;
   if (number == 0) {
     return give_up(wrong_sequence);
   }
   const bool ends = last || number == largest_block;
-  const bool repeated = ends && number > 1 && !heard_ && ackseq_ != 0;
+  const bool is_repeated = ends && number > 1 && !has_segment_ && ackseq_ != 0;
   const bool in_order = number == seq_ + 1;
-  heard_ = true;
-  if (repeated) {
+  has_segment_ = true;
+  if (is_repeated) {
     return std::nullopt;
   }
   if (in_order) {
-    const std::uint32_t fault = collect(response);
+    const std::uint32_t fault = store_segment(response);
     if (fault != 0) {
       return give_up(fault);
     }
@@ -284,7 +291,7 @@ SdoClientModel::Answer SdoClientModel::take_in_block(const SdoBytes& response) {
 
 // Stores a segment. All 7 bytes of the last one are stored, because the end request indicates how many of them are
 // data.
-std::uint32_t SdoClientModel::collect(const SdoBytes& response) {
+std::uint32_t SdoClientModel::store_segment(const SdoBytes& response) {
   if ((response[0] & 0x80U) == 0) {
     if (total_ && data_.size() + segment_bytes > *total_) {
       return too_long;
@@ -298,16 +305,17 @@ std::uint32_t SdoClientModel::collect(const SdoBytes& response) {
   return 0;
 }
 
+// Acknowledges a block. \a all: it was the last one, and is complete.
 SdoBytes SdoClientModel::acknowledge(bool all) {
   ackseq_ = seq_;
   seq_ = 0;
-  heard_ = false;
+  has_segment_ = false;
   state_ = all ? State::block_upload_end : State::block_upload;
   return {0xA2, byte(ackseq_), byte(largest_block)};
 }
 
 // Returns true if the frame repeats the last segment. Compares only the bytes that fit into the client's buffer.
-bool SdoClientModel::is_last_again(const SdoBytes& response) const {
+bool SdoClientModel::repeats_last_segment(const SdoBytes& response) const {
   const std::size_t first = data_.size() - segment_bytes;
   const std::size_t kept = std::min(segment_bytes, size_ - first);
   return response[0] == (ackseq_ | 0x80U) &&
@@ -316,7 +324,7 @@ bool SdoClientModel::is_last_again(const SdoBytes& response) const {
 }
 
 // Returns true for a correct end request. A last segment may have the same command byte.
-bool SdoClientModel::is_right_end(const SdoBytes& response) const {
+bool SdoClientModel::is_correct_end(const SdoBytes& response) const {
   const Bytes data(data_.begin(), data_.end() - ((response[0] >> 2) & 7));
   const bool is_end = (response[0] & 0xE3U) == 0xC1;
   const bool has_right_size = data.size() <= size_ && (!total_ || data.size() == *total_);
@@ -338,13 +346,13 @@ SdoClientModel::Answer SdoClientModel::end_block_upload(const SdoBytes& response
   return SdoBytes{0xA1};
 }
 
-bool SdoClientModel::remind(const SdoBytes& request) {
-  const std::size_t good = heard_ ? seq_ : ackseq_;
-  const SdoBytes right = {0xA2, byte(good), byte(largest_block)};
-  if (!can_remind() || request != right) {
+bool SdoClientModel::repeat_acknowledge(const SdoBytes& request) {
+  const std::size_t ackseq = has_segment_ ? seq_ : ackseq_;
+  const SdoBytes expected = {0xA2, byte(ackseq), byte(largest_block)};
+  if (!can_repeat_acknowledge() || request != expected) {
     return false;
   }
-  if (heard_) {
+  if (has_segment_) {
     acknowledge(false);
   }
   return true;
@@ -365,11 +373,11 @@ std::optional<SdoBytes> SdoClientModel::segment() {
   return frame;
 }
 
-SdoClientModel::Answer SdoClientModel::block_taken(const SdoBytes& response) {
+SdoClientModel::Answer SdoClientModel::block_confirmed(const SdoBytes& response) {
   const std::size_t ackseq = response[1];
   if (ackseq > seq_) {  // A server that was waiting for segments repeats the acknowledge of the previous block.
-    const bool is_whole = seq_ == blksize_ || last_sent_;
-    return done_ != 0 && !is_whole ? std::nullopt : give_up(wrong_sequence);
+    const bool is_complete = seq_ == blksize_ || last_sent_;
+    return done_ != 0 && !is_complete ? std::nullopt : give_up(wrong_sequence);
   }
   if (response[2] == 0 || response[2] > largest_block) {
     return give_up(wrong_blksize);

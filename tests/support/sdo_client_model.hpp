@@ -8,7 +8,7 @@
 ///     model.answer({0x4F, 0x00, 0x20, 0x05, 0x07});      // returns nothing: the upload is complete
 ///     model.end();                                       // 0: success; the bytes are in model.data()
 ///
-/// Owner: the test. The model has no clock: the test calls remind() and close() when a time-out ends.
+/// Owner: the test. The model has no clock: the test calls repeat_acknowledge() and close() when a time-out ends.
 #pragma once
 
 #include <cstddef>
@@ -28,21 +28,22 @@ class SdoClientModel {
   SdoBytes start_upload(const SdoKey& key, std::size_t size);
   SdoBytes start_download(const SdoKey& key, const Bytes& data);
 
-  /// Processes a frame of the server. Returns the client's immediate answer.
+  /// Processes a frame of the server. Returns the client's next request, nothing if it sends none.
   std::optional<SdoBytes> answer(const SdoBytes& response);
-  /// Sends and returns the next segment of a block download, nothing if there is none.
+  /// Returns the next segment of a block download, nothing if the block is complete. The segment counts as sent.
   std::optional<SdoBytes> segment();
-  /// Returns true if the client may send this without a received frame, and changes the state accordingly.
-  bool remind(const SdoBytes& request);
-  /// Ends the transfer for another reason than an answer of the server.
+  /// Returns true if \a request is the acknowledge that the client may repeat while it receives no segments of a block
+  /// upload, and changes the state accordingly.
+  bool repeat_acknowledge(const SdoBytes& request);
+  /// Ends the transfer for another reason than a response of the server. \a code: abort code.
   void close(std::uint32_t code);
-  /// Returns the frame that the client sends to the server then.
+  /// Returns the abort frame of the client.
   SdoBytes abort(std::uint32_t code) const;
 
   bool is_open() const { return state_ != State::idle; }
   std::uint32_t end() const { return end_; }   ///< abort code of the last transfer; 0: success
   const Bytes& data() const { return data_; }  ///< data of the last upload
-  bool can_remind() const { return state_ == State::block_upload || state_ == State::block_upload_end; }
+  bool can_repeat_acknowledge() const { return state_ == State::block_upload || state_ == State::block_upload_end; }
 
  private:
   enum class State {
@@ -61,24 +62,24 @@ class SdoClientModel {
   SdoBytes head(unsigned command) const;
   Answer give_up(std::uint32_t code);
   Answer finish(std::uint32_t code);
-  Answer aborted(const SdoBytes& response);
+  Answer abort_received(const SdoBytes& response);
   Answer answer_in_state(const SdoBytes& response);
 
   Answer upload_initiated(const SdoBytes& response);
-  Answer take_expedited(const SdoBytes& response);
-  Answer take_size(const SdoBytes& response, bool told, unsigned next);
-  Answer take(const SdoBytes& response);
+  Answer receive_expedited(const SdoBytes& response);
+  Answer receive_size(const SdoBytes& response, bool has_size, unsigned next);
+  Answer receive_segment(const SdoBytes& response);
   Answer download_initiated(const SdoBytes& response);
   SdoBytes next_segment() const;
-  Answer segment_taken(const SdoBytes& response);
+  Answer segment_confirmed(const SdoBytes& response);
 
-  Answer take_in_block(const SdoBytes& response);
-  std::uint32_t collect(const SdoBytes& response);
+  Answer receive_block_segment(const SdoBytes& response);
+  std::uint32_t store_segment(const SdoBytes& response);
   SdoBytes acknowledge(bool all);
-  bool is_last_again(const SdoBytes& response) const;
-  bool is_right_end(const SdoBytes& response) const;
+  bool repeats_last_segment(const SdoBytes& response) const;
+  bool is_correct_end(const SdoBytes& response) const;
   Answer end_block_upload(const SdoBytes& response);
-  Answer block_taken(const SdoBytes& response);
+  Answer block_confirmed(const SdoBytes& response);
 
   std::size_t block_threshold_;
   State state_ = State::idle;
@@ -93,9 +94,9 @@ class SdoClientModel {
   std::size_t done_ = 0;  // bytes of a download that the server has received, or of an upload before the current block
   std::uint8_t toggle_ = 0;
   std::size_t blksize_ = 0;
-  std::size_t seq_ = 0;     // last segment of the block received in order, or sent
-  std::size_t ackseq_ = 0;  // last one that was acknowledged
-  bool heard_ = false;      // a segment of the block was received
+  std::size_t seq_ = 0;       // last segment of the block received in order, or sent
+  std::size_t ackseq_ = 0;    // last segment that was acknowledged
+  bool has_segment_ = false;  // a segment of the block was received
   bool last_sent_ = false;
 };
 

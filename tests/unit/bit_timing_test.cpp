@@ -21,8 +21,8 @@ constexpr BitTimingLimits fdcan = {512, 256, 128, 128};
 constexpr BitTimingLimits sja1000 = {64, 16, 8, 4};     // clock: half of the crystal's frequency
 constexpr BitTimingLimits mcp2515 = {64, 16, 8, 4, 2};  // likewise
 
-struct Known {
-  const char* what;
+struct KnownTiming {
+  const char* source;
   std::uint32_t clock;
   std::uint32_t rate;
   BitTimingLimits limits;
@@ -31,7 +31,7 @@ struct Known {
 };
 
 // Bit timings of application notes and of tables in use.
-const Known known[] = {
+const KnownTiming known_timings[] = {
     {"8 MHz, as in CiA's table of recommended timings", 8000000, 10000, sja1000, {50, 13, 2, 2}, 8750},
     {"8 MHz", 8000000, 20000, sja1000, {25, 13, 2, 2}, 8750},
     {"8 MHz", 8000000, 50000, sja1000, {10, 13, 2, 2}, 8750},
@@ -60,6 +60,7 @@ std::string text(const BitTiming& timing) {
          std::to_string(timing.segment2) + "), jump " + std::to_string(timing.jump);
 }
 
+// Returns true if the timing is within the limits of the controller and has at least 8 quanta.
 bool fits(const BitTiming& timing, const BitTimingLimits& limits) {
   return timing.prescaler >= 1 && timing.prescaler <= limits.prescaler && timing.segment1 >= 1 &&
          timing.segment1 <= limits.segment1 && timing.segment2 >= limits.segment2_from &&
@@ -69,9 +70,9 @@ bool fits(const BitTiming& timing, const BitTimingLimits& limits) {
 
 }  // namespace
 
-TEST_CASE("bit timing: known good values are found [301]") {
-  for (const Known& row : known) {
-    CAPTURE(row.what);
+TEST_CASE("bit timing: the results are those of application notes and of tables in use [301]") {
+  for (const KnownTiming& row : known_timings) {
+    CAPTURE(row.source);
     CAPTURE(row.rate);
     const BitTiming timing = co::find_bit_timing(row.clock, row.rate, row.limits);
     CHECK(text(timing) == text(row.timing));
@@ -80,7 +81,7 @@ TEST_CASE("bit timing: known good values are found [301]") {
   }
 }
 
-TEST_CASE("bit timing: results respect the limits, the rate and CiA's range of the sample point [301]") {
+TEST_CASE("bit timing: each result is within the limits of the controller and CiA's tolerances [301]") {
   unsigned found = 0;
   for (const BitTimingLimits& limits : {zynqmp, bxcan, fdcan, sja1000, mcp2515}) {
     for (std::uint32_t clock = 4000000; clock <= 120000000; clock += 333000 * test::stride(7)) {
@@ -101,15 +102,15 @@ TEST_CASE("bit timing: results respect the limits, the rate and CiA's range of t
 }
 
 // Compares the result with all possible bit timings.
-TEST_CASE("bit timing: the result has the smallest error of the rate, then the sample point nearest to 87.5 %") {
+TEST_CASE("bit timing: no other timing has a smaller error of the rate or with the same error a better sample point") {
   for (const std::uint32_t clock : {8000000U, 13560000U, 24000000U, 33333333U, 48000000U, 99999001U}) {
     for (const std::uint32_t rate : co::cia_bit_rates) {
       const BitTiming timing = co::find_bit_timing(clock, rate, zynqmp);
-      const auto deviation = [&](unsigned periods) {
-        const double off = static_cast<double>(clock) / periods / rate - 1;
-        return off < 0 ? -off : off;
+      const auto rate_error = [&](unsigned periods) {
+        const double error = static_cast<double>(clock) / periods / rate - 1;
+        return error < 0 ? -error : error;
       };
-      const auto off_sample = [](const BitTiming& t) {
+      const auto sample_point_error = [](const BitTiming& t) {  // distance to 87.5 %
         return t.sample_point() > 8750 ? t.sample_point() - 8750 : 8750 - t.sample_point();
       };
       for (std::uint16_t prescaler = 1; prescaler <= 256; ++prescaler) {
@@ -118,13 +119,14 @@ TEST_CASE("bit timing: the result has the smallest error of the rate, then the s
             const BitTiming other = {prescaler, segment1, segment2, 1};
             const unsigned earliest = rate >= 800000 ? 7500 : 8500;
             const bool allowed = other.quanta() >= 8 && other.sample_point() >= earliest &&
-                                 other.sample_point() <= 9000 && deviation(prescaler * other.quanta()) <= 0.00099;
+                                 other.sample_point() <= 9000 && rate_error(prescaler * other.quanta()) <= 0.00099;
             if (!allowed) {
               continue;
             }
-            const double mine = timing.prescaler == 0 ? 1 : deviation(timing.prescaler * timing.quanta());
-            const double its = deviation(prescaler * other.quanta());
-            const bool better = its < mine - 1e-9 || (its < mine + 1e-9 && off_sample(other) < off_sample(timing));
+            const double error = timing.prescaler == 0 ? 1 : rate_error(timing.prescaler * timing.quanta());
+            const double other_error = rate_error(prescaler * other.quanta());
+            const bool better = other_error < error - 1e-9 ||
+                                (other_error < error + 1e-9 && sample_point_error(other) < sample_point_error(timing));
             if (better) {
               FAIL_CHECK(clock << " Hz, " << rate << " bit/s: " << text(other) << " is better than " << text(timing));
             }
@@ -146,7 +148,7 @@ TEST_CASE("bit timing: an impossible rate gives prescaler 0") {
   CHECK(co::find_bit_timing(8000000, 0, zynqmp).prescaler == 0);
 }
 
-TEST_CASE("bit timing: it is a constant expression, also for the table of a driver") {
+TEST_CASE("bit timing: timings and tables for drivers are constant expressions") {
   constexpr BitTiming timing = co::bit_timing<24000000, 500000, co::zynqmp_limits>;
   static_assert(timing.prescaler == 3 && timing.quanta() == 16 && timing.sample_point() == 8750);
   static constexpr auto& rates = co::zynqmp_rates<24000000, 125000, 1000000>;

@@ -28,7 +28,7 @@ namespace {
 using co::SocketCan;
 using Texts = std::vector<std::string>;
 
-constexpr std::int16_t taken = sizeof(CO_IF_FRM);
+constexpr std::int16_t accepted = sizeof(CO_IF_FRM);  // result of Send and Read for a frame
 const std::string interface = "lexicantest0";
 
 // Runs the program ip of iproute2. Returns true if it succeeds.
@@ -45,6 +45,7 @@ bool ip(std::vector<std::string> words) {
          waitpid(child, &status, 0) == child && status == 0;
 }
 
+// Returns true if the process is root and the kernel supports CAN.
 bool has_can() {
   const int fd = ::socket(PF_CAN, SOCK_RAW, CAN_RAW);
   if (fd >= 0) {
@@ -98,10 +99,11 @@ bool has_slcan() { return has_can() && !StuckAdapter().name().empty(); }
 
 std::int16_t send(SocketCan& can, const char* text) { return can.send(test::frame(text)); }
 
+// Reads all received frames.
 Texts received(SocketCan& can) {
   Texts texts;
   CO_IF_FRM frame{};
-  while (can.read(frame) == taken) {
+  while (can.read(frame) == accepted) {
     texts.push_back(test::notation(frame));
   }
   return texts;
@@ -119,7 +121,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(a.up());
     const Texts all = {"601#4008100000000000", "1ABCDEF0#01", "701#R", "000#", "20000040#0000000000000000"};
     for (const std::string& text : all) {
-      CHECK(send(a, text.c_str()) == taken);
+      CHECK(send(a, text.c_str()) == accepted);
     }
     CHECK(received(b) == all);
     CHECK(received(a).empty());
@@ -129,7 +131,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(poll(&wait, 1, 0) == 1);
   }
 
-  TEST_CASE("socketcan on a bus: the kernel passes the identifiers of the filter and all error frames") {
+  TEST_CASE("socketcan on a bus: only frames with an identifier of the filter and all error frames are received") {
     const Interface vcan;
     SocketCan a;
     SocketCan b;
@@ -152,7 +154,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(received(b).empty());
   }
 
-  TEST_CASE("socketcan on a bus: more identifiers than the kernel accepts disable the filter") {
+  TEST_CASE("socketcan on a bus: with more identifiers than the kernel accepts all frames are received") {
     const Interface vcan;
     SocketCan a;
     SocketCan b;
@@ -173,7 +175,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(b.code() == 0);
   }
 
-  TEST_CASE("socketcan on a bus: an interface that goes down is reported once and works when it is up again") {
+  TEST_CASE("socketcan on a bus: an interface going down is reported once and the socket works when it is up again") {
     Interface vcan;
     SocketCan a;
     SocketCan b;
@@ -195,14 +197,14 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     received(a);
     CHECK(b.up());
     CHECK(b.fd() == fd);
-    CHECK(send(b, "585#60") == taken);
+    CHECK(send(b, "585#60") == accepted);
     CHECK(received(a) == Texts{"585#60"});
     send(a, "606#40");
     send(a, "605#40");
     CHECK(received(b) == Texts{"605#40"});
   }
 
-  TEST_CASE("socketcan on a bus: an interface that is down can be opened and is used when it is up") {
+  TEST_CASE("socketcan on a bus: an interface that is down can be opened and frames are sent when it is up") {
     Interface vcan;
     vcan.down();
     SocketCan can;
@@ -211,10 +213,10 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     can.enable();
     CHECK(send(can, "701#00") == -1);
     vcan.up();
-    CHECK(send(can, "701#00") == taken);
+    CHECK(send(can, "701#00") == accepted);
   }
 
-  TEST_CASE("socketcan on a bus: a removed interface is reported, and used again with its filters when it is back") {
+  TEST_CASE("socketcan on a bus: a removed interface is reported and is opened with its filter when it is back") {
     Interface vcan;
     SocketCan b;
     REQUIRE(b.open(interface));
@@ -226,8 +228,8 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     for (int i = 0; i < 10; ++i) {
       errors += (b.read(frame) == -1) ? 1 : 0;
     }
-    const bool told = errors == 1 || errors == 2;  // interface down, then removed
-    CHECK(told);
+    const bool is_reported = errors == 1 || errors == 2;  // interface down, then removed
+    CHECK(is_reported);
     CHECK(b.fd() == -1);
     CHECK(send(b, "585#60") == -1);
     CHECK(b.code() == ENODEV);
@@ -239,7 +241,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     send(a, "606#40");
     send(a, "605#40");
     CHECK(received(b) == Texts{"605#40"});
-    CHECK(send(b, "585#60") == taken);
+    CHECK(send(b, "585#60") == accepted);
   }
 
   TEST_CASE("socketcan on a bus: frames dropped by the kernel are counted and reported as overrun") {
@@ -251,7 +253,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     const int small = 1;  // bytes; the kernel uses its minimum
     REQUIRE(::setsockopt(b.fd(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small) == 0);
     for (int i = 0; i < 200; ++i) {
-      CHECK(send(a, "201#01") == taken);
+      CHECK(send(a, "201#01") == accepted);
     }
     const Texts before = received(b);
     CHECK(before.size() < 200);
@@ -269,8 +271,8 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     REQUIRE(ip({"link", "set", adapter.name(), "up"}));
     SocketCan can;
     REQUIRE_MESSAGE(can.open(adapter.name()), can.error());
-    std::int16_t result = taken;
-    for (int i = 0; i < 100000 && result == taken; ++i) {
+    std::int16_t result = accepted;
+    for (int i = 0; i < 100000 && result == accepted; ++i) {
       result = send(can, "201#1122334455667788");
     }
     CHECK(result == 0);
@@ -278,7 +280,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(can.error().empty());
   }
 
-  TEST_CASE("socketcan on a bus: Enable and Reset drop frames received before") {
+  TEST_CASE("socketcan on a bus: Enable and Reset discard the frames received before") {
     const Interface vcan;
     SocketCan a;
     SocketCan b;
@@ -296,10 +298,10 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     b.close();
     CHECK(b.fd() == -1);
     CHECK(send(b, "705#00") == -1);
-    CHECK(send(a, "000#0101") == taken);
+    CHECK(send(a, "000#0101") == accepted);
     b.enable();
     CHECK(received(b).empty());
-    CHECK(send(b, "705#00") == taken);
+    CHECK(send(b, "705#00") == accepted);
     CHECK(received(a) == Texts{"705#00"});
   }
 

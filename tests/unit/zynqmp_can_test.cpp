@@ -45,14 +45,16 @@ class Controller {
     const CO_IF_FRM frm = frame(text);
     return ZynqmpCanDriver.Send(&can, &frm);
   }
-  bool takes(const char* text) { return send(text) == sizeof(CO_IF_FRM); }
+  bool accepts(const char* text) { return send(text) == sizeof(CO_IF_FRM); }
 
+  /// Returns the next received frame, else the result of Read.
   std::string read() {
     CO_IF_FRM frm{};
     const std::int16_t result = ZynqmpCanDriver.Read(&can, &frm);
     return result == sizeof frm ? notation(frm) : std::to_string(result);
   }
 
+  /// Calls the interrupt function if the controller requests an interrupt.
   void interrupt() {
     if (model.interrupt()) {
       COCanZynqmpInterrupt(&can);
@@ -77,32 +79,32 @@ class Controller {
 
 // Transmitting --------------------------------------------------------------------------------------------------------
 
-TEST_CASE("ZynqMP CAN: the controller gets one frame at a time, so that a later one of higher priority can precede") {
+TEST_CASE("ZynqMP CAN: a frame of higher priority can precede because the controller gets one frame at a time") {
   for (const bool level : {false, true}) {
     Controller node;
     node.model.level = level;
-    CHECK(node.takes("300#"));
+    CHECK(node.accepts("300#"));
     CHECK(node.send("200#") == 0);
     node.model.begin();
     CHECK(node.send("080#") == 0);  // 300h is being transmitted and cannot be overtaken
     node.model.win();
     node.interrupt();
-    CHECK(node.takes("080#"));
+    CHECK(node.accepts("080#"));
     node.drain();
-    CHECK(node.takes("200#"));
+    CHECK(node.accepts("200#"));
     node.drain();
     CHECK(node.model.sent == Ids{0x300, 0x080, 0x200});
   }
 }
 
-TEST_CASE("ZynqMP CAN: a frame that has lost the arbitration is overtaken by each one of higher priority") {
+TEST_CASE("ZynqMP CAN: a frame that has lost the arbitration is overtaken by every frame of higher priority") {
   Controller node;
-  CHECK(node.takes("300#"));
+  CHECK(node.accepts("300#"));
   node.model.begin();
   node.model.lose();
   CHECK(node.send("300#01") == 0);  // frames of one identifier keep their order
   CHECK(node.send("301#") == 0);
-  CHECK(node.takes("100#"));
+  CHECK(node.accepts("100#"));
   CHECK(node.model.waiting() == 2);
   CHECK(node.send("080#") == 0);  // 100h is the next frame
   node.model.begin();
@@ -113,76 +115,76 @@ TEST_CASE("ZynqMP CAN: a frame that has lost the arbitration is overtaken by eac
   CHECK(node.model.sent == Ids{0x100});
   node.model.begin();
   node.model.lose();
-  CHECK(node.takes("080#"));
+  CHECK(node.accepts("080#"));
   node.model.begin();
   node.model.win();
   CHECK(node.model.sent == Ids{0x100, 0x080});
   node.drain();
-  CHECK(node.takes("300#01"));
+  CHECK(node.accepts("300#01"));
   node.drain();
   CHECK(node.model.sent == Ids{0x100, 0x080, 0x300, 0x300});
 }
 
-TEST_CASE("ZynqMP CAN: a lost arbitration of an earlier frame does not affect the one on the wire") {
+TEST_CASE("ZynqMP CAN: a frame on the wire is not overtaken after an earlier frame has lost the arbitration") {
   Controller node;
-  CHECK(node.takes("300#"));
+  CHECK(node.accepts("300#"));
   node.model.begin();
   node.model.lose();
   node.drain();
-  CHECK(node.takes("301#"));
+  CHECK(node.accepts("301#"));
   node.model.begin();
   CHECK(node.send("080#") == 0);
   node.model.lose();
-  CHECK(node.takes("080#"));
+  CHECK(node.accepts("080#"));
   node.model.begin();
   node.model.win();
   node.model.begin();
   CHECK(node.send("081#") == 0);
 }
 
-TEST_CASE("ZynqMP CAN: 11-bit before 29-bit identifiers of the same base, data before remote frames") {
+TEST_CASE("ZynqMP CAN: 11-bit identifiers overtake 29-bit ones of the same base and data frames remote frames") {
   Controller node;
-  CHECK(node.takes("0C000000#"));  // base identifier 300h
+  CHECK(node.accepts("0C000000#"));  // base identifier 300h
   node.model.begin();
   node.model.lose();
   CHECK(node.send("0C000001#") == 0);
-  CHECK(node.takes("300#"));
+  CHECK(node.accepts("300#"));
   node.drain();
-  CHECK(node.takes("300#R"));
+  CHECK(node.accepts("300#R"));
   node.model.begin();
   node.model.lose();
-  CHECK(node.takes("300#"));
+  CHECK(node.accepts("300#"));
 }
 
-TEST_CASE("ZynqMP CAN: the boot-up message is never overtaken, a heartbeat is [301:7.3.2.2.1]") {
+TEST_CASE("ZynqMP CAN: the boot-up message is not overtaken but a heartbeat is [301:7.3.2.2.1]") {
   Controller node;
-  CHECK(node.takes("705#00"));
+  CHECK(node.accepts("705#00"));
   node.model.begin();
   node.model.lose();
   CHECK(node.send("080#") == 0);
   node.drain();
-  CHECK(node.takes("705#7F"));
+  CHECK(node.accepts("705#7F"));
   node.model.begin();
   node.model.lose();
-  CHECK(node.takes("080#"));
+  CHECK(node.accepts("080#"));
   node.drain();
   CHECK(node.model.sent == Ids{0x705, 0x080, 0x705});
 }
 
-TEST_CASE("ZynqMP CAN: a frame that is sent at once does not block the next one, for any interrupts") {
+TEST_CASE("ZynqMP CAN: a frame that is transmitted at once does not block the next one") {
   for (const bool level : {false, true}) {
     Controller node;
     node.model.level = level;
     node.model.instant = true;
     for (unsigned n = 0; n < 10; ++n) {
-      CHECK(node.takes("300#"));
+      CHECK(node.accepts("300#"));
     }
     CHECK(node.model.sent.size() == 10);
   }
 }
 
 // In each register access in turn, the transmission ends, without or with the interrupt.
-TEST_CASE("ZynqMP CAN: an end of transmission at any time blocks no frame") {
+TEST_CASE("ZynqMP CAN: a transmission that ends at any register access blocks no frame") {
   for (const bool level : {false, true}) {
     for (unsigned moment = 0; moment < 16; ++moment) {
       for (const bool with_interrupt : {false, true}) {
@@ -201,10 +203,10 @@ TEST_CASE("ZynqMP CAN: an end of transmission at any time blocks no frame") {
         CAPTURE(level);
         CAPTURE(moment);
         CAPTURE(with_interrupt);
-        CHECK(node.takes("300#"));
+        CHECK(node.accepts("300#"));
         node.model.between = nullptr;
         node.drain();
-        CHECK(node.takes("301#"));
+        CHECK(node.accepts("301#"));
         node.drain();
         CHECK(node.model.sent == Ids{0x300, 0x301});
       }
@@ -212,10 +214,10 @@ TEST_CASE("ZynqMP CAN: an end of transmission at any time blocks no frame") {
   }
 }
 
-TEST_CASE("ZynqMP CAN: the end of a transmission interrupts once; an empty FIFO does not interrupt") {
+TEST_CASE("ZynqMP CAN: the end of a transmission interrupts once and an empty FIFO does not interrupt") {
   Controller node;
   CHECK_FALSE(node.model.interrupt());
-  CHECK(node.takes("300#"));
+  CHECK(node.accepts("300#"));
   CHECK_FALSE(node.model.interrupt());
   node.model.begin();
   node.model.win();
@@ -224,7 +226,7 @@ TEST_CASE("ZynqMP CAN: the end of a transmission interrupts once; an empty FIFO 
   CHECK_FALSE(node.model.interrupt());
 }
 
-TEST_CASE("ZynqMP CAN: an identifier above 7FFh is sent with 29 bits, more than 8 bytes as 8") {
+TEST_CASE("ZynqMP CAN: an identifier above 7FFh is sent with 29 bits and a DLC above 8 as 8") {
   Controller node;
   CO_IF_FRM frm = {0x800, {1, 2, 3, 4, 5, 6, 7, 8}, 15};
   CHECK(ZynqmpCanDriver.Send(&node.can, &frm) > 0);
@@ -239,7 +241,7 @@ TEST_CASE("ZynqMP CAN: an identifier above 7FFh is sent with 29 bits, more than 
 
 // Receiving -----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("ZynqMP CAN: a DLC above 8 means 8 bytes, for both formats and remote frames [ISO 11898-1]") {
+TEST_CASE("ZynqMP CAN: data and remote frames of both formats are received and a DLC above 8 means 8 [ISO 11898-1]") {
   Controller node;
   node.model.receive({0x123U << 21, 15U << 28, 0x01020304, 0x05060708});
   node.model.receive({(0x123U << 21) | (1U << 20), 0, 0, 0});
@@ -253,7 +255,7 @@ TEST_CASE("ZynqMP CAN: a DLC above 8 means 8 bytes, for both formats and remote 
   CHECK(node.read() == "0");
 }
 
-TEST_CASE("ZynqMP CAN: a full queue and a full FIFO drop frames, reported once before the remaining ones") {
+TEST_CASE("ZynqMP CAN: frames lost by a full queue or FIFO are reported once before the remaining frames") {
   Controller node;
   for (unsigned n = 0; n < queue_frames + 3; ++n) {
     node.model.receive(0x100 + n);
@@ -292,9 +294,9 @@ TEST_CASE("ZynqMP CAN: error passive and its end are reported once each") {
   CHECK(node.read() == "0");
 }
 
-TEST_CASE("ZynqMP CAN: in bus-off the controller is off the bus until a reset and back when error active") {
+TEST_CASE("ZynqMP CAN: after bus-off the controller is off the bus until a reset and recovers when error active") {
   Controller node;
-  CHECK(node.takes("300#"));
+  CHECK(node.accepts("300#"));
   node.model.go_bus_off();
   CHECK(node.model.interrupt());
   node.interrupt();
@@ -311,12 +313,12 @@ TEST_CASE("ZynqMP CAN: in bus-off the controller is off the bus until a reset an
   node.model.set_state(co::zynqmp::error_active);
   CHECK(node.read() == "20000100#0000000000000000");
   CHECK(node.read() == "0");
-  CHECK(node.takes("080#"));
+  CHECK(node.accepts("080#"));
   node.drain();
   CHECK(node.model.sent == Ids{0x080});
 }
 
-TEST_CASE("ZynqMP CAN: recovery from bus-off as error passive reports both; Enable starts anew") {
+TEST_CASE("ZynqMP CAN: a recovery from bus-off to error passive reports both and Enable clears the error states") {
   Controller node;
   node.model.go_bus_off();
   node.interrupt();
@@ -331,7 +333,7 @@ TEST_CASE("ZynqMP CAN: recovery from bus-off as error passive reports both; Enab
   CHECK(node.read() == "0");
 }
 
-TEST_CASE("ZynqMP CAN: frames received before bus-off are read; an overrun is reported with it") {
+TEST_CASE("ZynqMP CAN: frames received before bus-off are read and an overrun is reported with bus-off") {
   Controller node;
   for (unsigned n = 0; n < queue_frames + 1; ++n) {
     node.model.receive(0x100 + n);
@@ -347,7 +349,7 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x1014, 0, CO_OBJ_DN__R_), CO_TEMCY_ID, (CO_DATA)(0x80)},
 };
 
-TEST_CASE("ZynqMP CAN: bus-off is reported to the node, and the recovery by COIfCanReset with 8140h [301:7.2.7.1]") {
+TEST_CASE("ZynqMP CAN: the node counts bus-off and sends EMCY 8140h after the recovery by COIfCanReset [301:7.2.7.1]") {
   Controller controller;
   CO_NODE node;
   co::VirtualClock clock;
@@ -390,9 +392,9 @@ TEST_CASE("ZynqMP CAN: bus-off is reported to the node, and the recovery by COIf
 
 // On and off the bus --------------------------------------------------------------------------------------------------
 
-TEST_CASE("ZynqMP CAN: a reset drops received frames; the frame in the controller is sent [T14]") {
+TEST_CASE("ZynqMP CAN: a reset discards received frames and the frame in the controller is still sent [T14]") {
   Controller node;
-  CHECK(node.takes("585#01"));
+  CHECK(node.accepts("585#01"));
   node.model.begin();
   for (unsigned n = 0; n < 100; ++n) {
     node.model.receive(0x100);
@@ -408,18 +410,18 @@ TEST_CASE("ZynqMP CAN: a reset drops received frames; the frame in the controlle
   node.model.win();
   CHECK(node.model.interrupt());
   node.interrupt();
-  CHECK(node.takes("705#00"));
+  CHECK(node.accepts("705#00"));
   node.drain();
   CHECK(node.model.sent == Ids{0x585, 0x705});
   CHECK(node.read() == "0");
   CHECK(COCanZynqmpLost(&node.can) == 0);
 }
 
-TEST_CASE("ZynqMP CAN: a reset in bus-off empties both directions and keeps filters and bit rate") {
+TEST_CASE("ZynqMP CAN: a reset in bus-off discards all frames and keeps filters and bit rate") {
   Controller node;
   const std::uint32_t id = 0x123;
   ZynqmpCanDriver.Filter(&node.can, &id, 1);
-  CHECK(node.takes("300#"));
+  CHECK(node.accepts("300#"));
   node.model.receive(0x123);
   node.interrupt();
   node.model.receive(0x123);
@@ -438,10 +440,10 @@ TEST_CASE("ZynqMP CAN: a reset in bus-off empties both directions and keeps filt
   node.interrupt();
   CHECK(node.read() == "123#");
   CHECK(node.read() == "0");
-  CHECK(node.takes("300#"));
+  CHECK(node.accepts("300#"));
 }
 
-TEST_CASE("ZynqMP CAN: it waits for a limited time until a reset or a change of filters is done") {
+TEST_CASE("ZynqMP CAN: the driver waits for a limited time until a reset or a change of filters is complete") {
   const Ids ids = {0x123, 0x456};
   for (const unsigned latency : {3U, 100000U}) {
     Controller node;
@@ -463,10 +465,10 @@ TEST_CASE("ZynqMP CAN: it waits for a limited time until a reset or a change of 
   }
 }
 
-TEST_CASE("ZynqMP CAN: closed or with an unknown bit rate it is off the bus, and interrupts have no effect") {
+TEST_CASE("ZynqMP CAN: after Close or with an unknown bit rate it is off the bus and interrupts have no effect") {
   Controller node;
-  for (unsigned way = 0; way < 2; ++way) {
-    if (way == 0) {
+  for (const bool by_close : {true, false}) {
+    if (by_close) {
       ZynqmpCanDriver.Close(&node.can);
     } else {
       ZynqmpCanDriver.Enable(&node.can, 100000);
@@ -484,9 +486,9 @@ TEST_CASE("ZynqMP CAN: closed or with an unknown bit rate it is off the bus, and
   }
 }
 
-TEST_CASE("ZynqMP CAN: it sleeps unless a frame is being sent; never when closed or in bus-off") {
+TEST_CASE("ZynqMP CAN: the controller sleeps unless a frame is being sent or the driver is closed") {
   Controller node;
-  CHECK(node.takes("300#"));
+  CHECK(node.accepts("300#"));
   COCanZynqmpSleep(&node.can);
   CHECK(node.model.value(Register::mode_select) == 0);
   node.drain();
@@ -521,8 +523,7 @@ unsigned standard_ids_that_pass(const co::zynqmp::Acceptance& all) {
   return number;
 }
 
-TEST_CASE(
-    "ZynqMP CAN filters: up to four identifiers match exactly; repeated ones count once; none passes all frames") {
+TEST_CASE("ZynqMP CAN filters: up to four different identifiers match exactly and an empty list passes all frames") {
   const Ids ids = {0x000, 0x123, 0x123, 0x605, 0x7E5};
   const auto all = co::zynqmp::acceptance_of(ids.data(), 5);
   CHECK(all.number == 4);
@@ -537,9 +538,9 @@ TEST_CASE("ZynqMP CAN filters: a usual slave receives its nine identifiers and n
   CHECK(standard_ids_that_pass(all) == 9);
 }
 
-TEST_CASE("ZynqMP CAN filters: of five identifiers the pair is merged that passes the fewest others") {
+TEST_CASE("ZynqMP CAN filters: of five identifiers those two share a filter that then passes the fewest others") {
   std::mt19937 random(2);
-  for (unsigned turn = 0; turn < 200; ++turn) {
+  for (unsigned round = 0; round < 200; ++round) {
     Ids ids(5);
     for (std::uint32_t& id : ids) {
       id = random() & 0x7FF;
@@ -570,9 +571,9 @@ TEST_CASE("ZynqMP CAN filters: wide filters are merged instead of narrow ones if
   CHECK(standard_ids_that_pass(all) == 11);
 }
 
-TEST_CASE("ZynqMP CAN filters: any number of requested identifiers passes, in data and remote frames") {
+TEST_CASE("ZynqMP CAN filters: data and remote frames of all requested identifiers pass for any number of them") {
   std::mt19937 random(1);
-  for (unsigned turn = 0; turn < 300; ++turn) {
+  for (unsigned round = 0; round < 300; ++round) {
     Ids ids(random() % 40 + 1);
     for (std::uint32_t& id : ids) {
       id = random() % 4 == 0 ? (random() & CO_IF_FRM_ID) | CO_IF_FRM_EXT : random() & 0x7FF;
