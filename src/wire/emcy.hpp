@@ -14,9 +14,8 @@ constexpr CO_EMCY_MSG emcy_message(uint16_t code, const uint8_t* msef) {
   return {code | (uint32_t{msef[0]} << 24), get_u32(msef + 1)};
 }
 
-// Returns the message of a communication fault: an error code, and detail (a node-ID or the number of a PDO) as third
-// byte of the manufacturer-specific error field. The other four bytes are 0; 1003h also stores the first two of them,
-// as additional information. [301:7.5.2.4]
+// Returns the message of a fault of the stack: an error code, and detail (a node-ID or the number of a PDO) as third
+// byte of the manufacturer-specific error field. The other bytes are 0: the first two are also in 1003h. [301:7.5.2.4]
 constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint8_t detail) { return {code, uint32_t{detail} << 8}; }
 
 // Returns the message with the error register, byte 2 of the frame, behind the error code.
