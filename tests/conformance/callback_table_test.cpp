@@ -172,7 +172,7 @@ TEST_CASE("callback table: life guarding") {
 #endif
 
 #if CO_TPDO_N > 1 && CO_RPDO_N > 1 && USE_SYNC
-TEST_CASE("callback table: PDOs, event-driven and synchronous") {
+TEST_CASE("callback table: its functions are called for event-driven and synchronous PDOs in place of C functions") {
   SyncTable entries;
   entries.rpdo[0].on(0x201, 255, {0x22010108});
   entries.rpdo[1].on(0x301, 1, {0x22010208});

@@ -254,7 +254,7 @@ TEST_CASE("EMCY: a message queued for the controller is not sent in Stopped [N3]
   node.silent();
 }
 
-TEST_CASE("EMCY: a node without EMCY withdraws no frame from the transmit queue, such as NMT commands") {
+TEST_CASE("EMCY: a node with an invalid 1014h does not remove frames of the application from the transmit queue") {
   Fixture node(Setup().with({CO_KEY(0x1014, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0x80000081}));
   node.can.refuse_all();
   CO_IF_FRM command = frame("000#0102");

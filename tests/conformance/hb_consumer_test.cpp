@@ -68,7 +68,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("heartbeat consumer: error and reaction occur once; callback and count every period [H3] [B2]") {
+TEST_CASE("heartbeat consumer: a missing node is one error but a callback and an event in every period [H3] [B2]") {
   Monitor node({{5, 100}});
   node.rx("000#0101");
   node.rx("705#05");

@@ -65,7 +65,7 @@ class Device {
 };
 
 #if USE_LSS && CO_LSS_IN_OPERATIONAL
-TEST_CASE("LSS, activate bit timing in Operational: the node first enters the state of 1029h:1") {
+TEST_CASE("LSS: a node that activates bit timing in Operational first enters the state of 1029h:1") {
   struct Case {
     std::uint8_t behaviour;
     CO_MODE mode;

@@ -247,7 +247,7 @@ void forget_pieces(LoggedExtension& extension) {
   };
 }
 
-TEST_CASE("OD interleaved: an upload, two readers and COObj functions on one extended stream, in every order") {
+TEST_CASE("OD interleaved: an upload and readers of one extended stream get all bytes in every order of the pieces") {
   Node node;
   Upload upload(node, 1, 0x3000);
   Reader first(node, 0x3000);
@@ -258,7 +258,7 @@ TEST_CASE("OD interleaved: an upload, two readers and COObj functions on one ext
   CHECK(run_all_orders({&first, &second, &obj}) == orders_of_three);
 }
 
-TEST_CASE("OD interleaved: two servers with two streams and the application in both, in every order") {
+TEST_CASE("OD interleaved: uploads of two streams and readers of both get all bytes in every order of the pieces") {
   Node node;
   Upload upload(node, 1, 0x3000);
   Upload other_upload(node, 2, 0x3001);
@@ -269,7 +269,7 @@ TEST_CASE("OD interleaved: two servers with two streams and the application in b
   CHECK(run_all_orders({&other_upload, &reader, &obj}) == orders_of_three);
 }
 
-TEST_CASE("OD interleaved: a download on one server, an upload on the other and readers of both, in every order") {
+TEST_CASE("OD interleaved: a download and an upload and readers of both are complete in every order of the pieces") {
   Node node;
   Upload upload(node, 2, 0x3000);
   Download download(node, 1, 0x3001);
@@ -282,7 +282,7 @@ TEST_CASE("OD interleaved: a download on one server, an upload on the other and 
   CHECK(node.other.data == counting(12, 51));
 }
 
-TEST_CASE("OD interleaved: a download, an OD_IO_t and COObj functions that write one stream, in every order") {
+TEST_CASE("OD interleaved: a download and two writers of one stream are complete in every order of the pieces") {
   Node node;
   forget_pieces(node.other);
   Download download(node, 1, 0x3001);
@@ -293,7 +293,7 @@ TEST_CASE("OD interleaved: a download, an OD_IO_t and COObj functions that write
   CHECK(run_all_orders({&download, &writer, &second}) == orders_of_three);
 }
 
-TEST_CASE("OD interleaved: texts with their zero, in every order") {
+TEST_CASE("OD interleaved: uploads and readers of a text with its zero are complete in every order of the pieces") {
   Node node;
   Upload upload(node, 1, 0x3003);
   Upload other(node, 2, 0x3000);
@@ -303,7 +303,7 @@ TEST_CASE("OD interleaved: texts with their zero, in every order") {
   CHECK(run_all_orders({&upload, &reader, &obj}) == orders_of_three);
 }
 
-TEST_CASE("OD interleaved: transfers, OD_IO_t and COObj functions on a domain without an extension, in every order") {
+TEST_CASE("OD interleaved: accesses to a domain without extension are complete in every order of the pieces") {
   Node node;
   Upload upload(node, 1, 0x3002);
   Upload other(node, 2, 0x3001);

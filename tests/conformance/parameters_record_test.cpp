@@ -157,7 +157,7 @@ TEST_CASE("parameters: groups that overlap do not hide a fault that prevents the
 
 #endif
 
-TEST_CASE("parameters: a group that overlaps another one loads nothing, not even its own record") {
+TEST_CASE("parameters: a group that overlaps another one is not loaded even if its own record is valid") {
   GroupDevice device;
   store_one_and_two(device);
   device.first.Offset = 99;

@@ -527,7 +527,7 @@ TEST_CASE("real time: a callback of a PDO that stops the node ends it at once") 
   node.silent();
 }
 
-TEST_CASE("real time: timers of the application run in a stopped node, as with a single thread") {
+TEST_CASE("real time: timers of the application run in a stopped node") {
   RealTimeNode node(pdos());
   node.start();
   static unsigned runs;

@@ -121,13 +121,14 @@ TEST_CASE("SDO abort 0609 0030h: value not allowed") {
   node.ask("601#2F20200002000000", "581#8020200030000906");
 }
 
-TEST_CASE("SDO abort 0504 0001h: unknown command, with the request's own bytes when idle [D7] [D25] [SDO 07]") {
+TEST_CASE(
+    "SDO abort 0504 0001h: an unknown command without transfer is aborted with its own bytes [D7] [D25] [SDO 07]") {
   Fixture node;
   node.ask("601#E0AABBCC11223344", "581#80AABBCC01000405");
   node.ask("601#FF010203FFFFFFFF", "581#8001020301000405");
 }
 
-TEST_CASE("SDO abort 0504 0001h: unknown command, with the transfer's multiplexer within a transfer [D7] [D25]") {
+TEST_CASE("SDO abort 0504 0001h: an unknown command within a transfer is aborted with its multiplexer [D7] [D25]") {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   node.ask("601#E0AABBCC11223344", "581#8008100001000405");

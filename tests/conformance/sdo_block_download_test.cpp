@@ -55,7 +55,7 @@ TEST_CASE("SDO block download: the CRC of 123456789 is 31C3h, low byte first [D1
   }
 }
 
-TEST_CASE("SDO block download: the four forms of the initiate, with and without CRC and size [D11] [D14]") {
+TEST_CASE("SDO block download: it succeeds with the four forms of the initiate (CRC yes/no size yes/no) [D11] [D14]") {
   struct Row {
     const char* initiate;
     const char* end;
@@ -139,7 +139,7 @@ TEST_CASE("SDO block download: an eight byte value in two segments") {
   CHECK(node.objects.u64 == 0x0807060504030201);
 }
 
-TEST_CASE("SDO block download: REAL32, REAL64, BOOLEAN, time of day, a value relative to the node-ID") {
+TEST_CASE("SDO block download: objects of every basic type are written and flag N subtracts the node-ID") {
   Fixture node(Setup().only_small().node_id(1));
   CHECK(node.block_download(0x2024, 0, {0x00, 0x00, 0x20, 0x41}).abort == 0);
   CHECK(node.objects.real32 == 10.0F);

@@ -141,7 +141,7 @@ TEST_CASE("SDO block upload: numbers of one to eight bytes, lowest byte first") 
   }
 }
 
-TEST_CASE("SDO block upload: REAL32, REAL64, time of day, strings, a value relative to the node-ID") {
+TEST_CASE("SDO block upload: objects of every basic type are read and flag N adds the node-ID") {
   Fixture node(Setup().only_small().node_id(1));
   CHECK(node.block_upload(0x2024, 0).data == Bytes{0, 0, 0x80, 0x3F});
   CHECK(node.block_upload(0x2028, 0).data == Bytes{0, 0, 0, 0, 0, 0, 0xF0, 0x3F});

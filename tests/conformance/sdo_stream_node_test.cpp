@@ -19,8 +19,8 @@ long count_ends(const Log& log) {
   return std::count_if(log.begin(), log.end(), [](const std::string& call) { return call[0] == 'e'; });
 }
 
-const auto stop_sdo = [](  // enters Stopped, which permits no SDO
-                          CO_OBJ*, CO_NODE* node) {
+// Enters Stopped, which permits no SDO.
+const auto stop_sdo = [](CO_OBJ*, CO_NODE* node) {
   CONmtSetMode(&node->Nmt, CO_STOP);
   return CO_ERR_NONE;
 };

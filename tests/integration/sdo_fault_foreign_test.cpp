@@ -155,11 +155,11 @@ void disturb_all() {
 
 }  // namespace
 
-TEST_CASE("SDO faults: another server with blocks of 1, 2, 5 and 127 segments, one frame disturbed [T11]") {
+TEST_CASE("SDO faults: with a server model and blksize 1/2/5/127 a fault of one frame gives no wrong data [T11]") {
   disturb_all<OurClient>();
 }
 
-TEST_CASE("SDO faults: another client with blocks of 1, 2, 5 and 127 segments, one frame disturbed [T11]") {
+TEST_CASE("SDO faults: with a client model and blksize 1/2/5/127 a fault of one frame gives no wrong data [T11]") {
   disturb_all<OurServer>();
 }
 

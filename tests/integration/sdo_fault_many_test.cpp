@@ -120,7 +120,7 @@ class Crowd {
 
 }  // namespace
 
-TEST_CASE("SDO faults: three clients and two servers at the same time, random faults [T11]") {
+TEST_CASE("SDO faults: three clients and two servers at the same time get no wrong data with random faults [T11]") {
   for (const std::uint32_t bit_rate : {0u, 125000u, 1000000u}) {
     CAPTURE(bit_rate);
     const unsigned rounds = test::all_faults() ? 5000 : 200;

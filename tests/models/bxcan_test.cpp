@@ -159,7 +159,7 @@ TEST_CASE("bxcan: a pending mailbox waits during initialization") {
   CHECK(station.wire.sent() == 1);
 }
 
-TEST_CASE("bxcan: sleep mode, and wake-up by software") {
+TEST_CASE("bxcan: sleep mode is entered on request and left by software") {
   Station station;
   out(bxcan::ier, 0x20000);  // SLKIE
   out(bxcan::mcr, sleep_request);
@@ -676,7 +676,7 @@ TEST_CASE("bxcan: filter numbers of the example of the manual") {
   }
 }
 
-TEST_CASE("bxcan: of matching filters, 32 bits win over 16 bits, a list over a mask, then the lower number") {
+TEST_CASE("bxcan: a matching filter of 32 bits precedes one of 16 bits then a list a mask then the lower number") {
   Filters filters;
   Filters::bank(0, false, false, 0, 0, 0);                                    // accepts all: 0, 1
   Filters::bank(1, false, true, 0, 0x101U << 5 | 0x102U << 21, 0x103U << 5);  // 2…5
@@ -783,7 +783,7 @@ TEST_CASE("bxcan: the last error code of each kind of error") {
   CHECK(lec() == 1);
 }
 
-TEST_CASE("bxcan: error flags, counters and ERRI") {
+TEST_CASE("bxcan: ERRI is set when an enabled error flag is set and not by its persistence") {
   Station station;
   out(bxcan::ier, 0x8000 | 0x100 | 0x200 | 0x400);  // ERRIE, EWGIE, EPVIE, BOFIE
   CHECK_FALSE(station.can.status_interrupt());

@@ -303,7 +303,7 @@ TEST_CASE("flexcan: memory with error correction must be initialised as a whole 
   }
 }
 
-TEST_CASE("flexcan: bit rate and sample point of CTRL1 and CBT [CTRL1, CBT]") {
+TEST_CASE("flexcan: bit rate and sample point follow CTRL1 or CBT if it is enabled [CTRL1, CBT]") {
   FlexCan::Options options = FlexCan::imx8mp();
   options.clock = 40'000'000;
   CanWire wire;

@@ -97,7 +97,7 @@ TEST_CASE("bxCAN, M_CAN: the filters pass exactly the identifiers of a usual nod
 constexpr co::flexcan::Capacity flexcan_fifo = {24, 12};  // of a controller with 16 message buffers
 constexpr co::flexcan::Capacity flexcan_mailboxes = {14, 14};
 
-TEST_CASE("FlexCAN: the filters pass exactly the identifiers of a usual node, and few others beside a large one") {
+TEST_CASE("FlexCAN: the filters pass exactly the identifiers of a usual node and few others of a large node") {
   const Ids ids = {0x000, 0x080, 0x080, 0x100, 0x185, 0x205, 0x305, 0x405, 0x505, 0x605, 0x701, 0x702, 0x7E5};
   for (const co::flexcan::Capacity& capacity : {flexcan_fifo, flexcan_mailboxes}) {
     const auto flexcan = co::flexcan::filters_of(ids.data(), static_cast<unsigned>(ids.size()), capacity);
@@ -154,7 +154,7 @@ TEST_CASE("FlexCAN: the macros for C compute bit timings like the tables for C++
         0x8029E929);  // prescaler 2, segments 59 + 10 and 10, jump 10
 }
 
-TEST_CASE("bxCAN, M_CAN: with more identifiers than filters, few others pass") {
+TEST_CASE("bxCAN, M_CAN: if there are more identifiers than filters then few other identifiers pass") {
   const Ids ids = ids_of_a_large_node();
   const auto bxcan = co::bxcan::filters_of(ids.data(), static_cast<unsigned>(ids.size()), filters_of_14_banks);
   const auto fdcan = co::fdcan::filters_of(ids.data(), static_cast<unsigned>(ids.size()));

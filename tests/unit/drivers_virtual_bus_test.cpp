@@ -155,7 +155,8 @@ TEST_CASE("virtual bus: queued frames are sent in the order of arbitration, thos
   CHECK(received(c) == Texts{"1FF#", "200#", "300#", "080#", "700#"});
 }
 
-TEST_CASE("virtual bus: data before remote, 11-bit before 29-bit of the same base, then the extension") {
+TEST_CASE(
+    "virtual bus: the base identifier decides then 11-bit before 29-bit then the extension then data before remote") {
   VirtualBus bus;
   // 123h << 18 = 048C0000h: the 29-bit identifiers with base 123h.
   const Texts by_priority = {"122#", "123#", "123#R", "048C0000#", "048C0000#R", "048C0001#", "048E0000#", "124#"};

@@ -229,7 +229,7 @@ TEST_CASE("OD_getSub: the attributes are the access rights of the network") {
   }
 }
 
-TEST_CASE("OD_mappable: true for any of the four bits of PDOs, false for a null stream") {
+TEST_CASE("OD_mappable: returns true for any of the four bits of PDOs and false for a null stream") {
   for (unsigned attribute = 0; attribute <= 0xFF; ++attribute) {
     OD_stream_t stream{};
     stream.attribute = static_cast<OD_attr_t>(attribute);

@@ -10,7 +10,7 @@ using namespace test;
 
 // Values from a domain ------------------------------------------------------------------------------------------------
 
-TEST_CASE("stream access: CODictRdLong and others start at the beginning of a domain, also during its upload") {
+TEST_CASE("stream access: CODictRdLong and the like access the beginning of a domain even during its upload") {
   Fixture node;
   CO_DICT* const dict = &node->Dict;
   node.ask("601#4000210F00000000", "581#4100210F0F000000");

@@ -16,7 +16,7 @@ struct OldNode : PlainNode {
 
 const PlainTimer& old = plain_timer();
 
-TEST_CASE("timer: classic drivers, cyclic and tickless, run timers on time") {
+TEST_CASE("timer: timers run on time with cyclic and with tickless classic drivers") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);
     OldNode t(cyclic);

@@ -357,7 +357,7 @@ TEST_CASE("node lock: functions that access the memory carry out a requested res
 
 #endif
 
-TEST_CASE("node lock: never nested with NMT, all SDO transfers, errors, heartbeat and guarding") {
+TEST_CASE("node lock: it is never nested in NMT or SDO transfers or EMCY or heartbeat or guarding") {
   Fixture node(Setup().turns().heartbeat(100).emergencies({{CO_EMCY_REG_GENERAL, 0x1234}}));
   std::size_t turns = 0;
   callbacks().enter = [&] { ++turns; };

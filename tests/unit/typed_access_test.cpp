@@ -193,7 +193,7 @@ TEST_CASE("typed access: any byte except 0 is true") {
   CHECK_FALSE(object.get().value());
 }
 
-TEST_CASE("typed access: the compiler finds, checks and selects the type of a constant key") {
+TEST_CASE("typed access: the type of an object with a constant key is determined by the compiler") {
   Node node;
   static_assert(std::is_same_v<decltype(co::object<od, 0x2001, 0>(node)), co::Object<std::uint8_t>>);
   static_assert(std::is_same_v<decltype(co::object<od, 0x2002, 0>(node)), co::Object<std::uint16_t>>);
