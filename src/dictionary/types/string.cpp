@@ -37,7 +37,8 @@ CO_ERR text_read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Strings that can be written -----------------------------------------------------------------------------------------
 
-CO_OBJ_STR_RW* usable(const CO_OBJ& obj) {
+// Returns the string of an entry; null: the entry has no string, or the string has no memory.
+CO_OBJ_STR_RW* find_string(const CO_OBJ& obj) {
   auto* const string = co::data_of<CO_OBJ_STR_RW>(obj);
   return string == nullptr || string->Start == nullptr ? nullptr : string;
 }
@@ -59,7 +60,7 @@ uint32_t text_in(const CO_OBJ_STR_RW& string) {
 // Returns the length of an upload if width is 0, else the length nearest to width that a download may have: any length
 // up to the capacity.
 uint32_t size_for(const CO_OBJ& obj, uint32_t width, uint32_t (*length)(const CO_OBJ_STR_RW&)) {
-  const CO_OBJ_STR_RW* const string = usable(obj);
+  const CO_OBJ_STR_RW* const string = find_string(obj);
   if (string == nullptr) {
     return 0;
   }
@@ -81,7 +82,7 @@ constexpr uint32_t unicode_flip = co::wire::host_is_little_endian ? 0 : 1;
 
 template <uint32_t flip>
 CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
-  CO_OBJ_STR_RW* const string = usable(*obj);
+  CO_OBJ_STR_RW* const string = find_string(*obj);
   if (string == nullptr) {
     return CO_ERR_BAD_ARG;
   }
@@ -94,7 +95,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
 
 template <uint32_t flip>
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  CO_OBJ_STR_RW* const string = usable(*obj);
+  CO_OBJ_STR_RW* const string = find_string(*obj);
   if (string == nullptr) {
     return CO_ERR_BAD_ARG;
   }
@@ -115,7 +116,7 @@ CO_ERR visible_write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (err != CO_ERR_NONE) {
     return err;
   }
-  const CO_OBJ_STR_RW& string = *usable(*obj);
+  const CO_OBJ_STR_RW& string = *find_string(*obj);
   if (string.Size < string.Capacity) {
     string.Start[string.Size] = 0;
   }
