@@ -20,7 +20,8 @@
 /// Controller is a class with these members; mailboxes are numbered from 0 on, a set of them is a bit mask:
 ///
 ///     Completed take_completed(unsigned used);  // reads and acknowledges the results of requests and aborts
-///     unsigned free_mailbox(unsigned used);     // a mailbox for a frame; the number of mailboxes: none
+///     // returns a mailbox for a frame that is requested next; the number of mailboxes: none
+///     unsigned free_mailbox(unsigned used, const CO_IF_FRM& frame);
 ///     void request(unsigned mailbox, const CO_IF_FRM& frame);
 ///     void abort(unsigned mailboxes);
 ///     bool is_delayed(unsigned mailbox);  // the frame lost the arbitration, or another node is transmitting
@@ -149,7 +150,7 @@ void collect(Box& box, Controller& controller) {
 
 template <typename Box, typename Controller>
 bool fill(Box& box, Controller& controller, const CO_IF_FRM& frame) {
-  const unsigned mailbox = controller.free_mailbox(box.Used);
+  const unsigned mailbox = controller.free_mailbox(box.Used, frame);
   if (mailbox >= mailboxes_of<Box>) {
     return false;
   }
@@ -219,6 +220,23 @@ bool displace(Box& box, Controller& controller, std::uint32_t order, unsigned ro
   }
   return box.Used != all_of<Box>;
 }
+
+// Requests a frame after others were displaced. A controller that aborts all mailboxes at once has also displaced
+// frames of higher priority, which are requested before it.
+template <typename Box, typename Controller>
+bool fill_in_order(Box& box, Controller& controller, const CO_IF_FRM& frame) {
+  bool is_first = true;
+  for (unsigned n = 0; n < box.DisplacedNum; ++n) {
+    is_first = is_first && rank(frame.Identifier) < rank(box.Displaced[n].Identifier);
+  }
+  if (is_first || box.DisplacedNum == displaced_of<Box>) {
+    return fill(box, controller, frame);
+  }
+  box.Displaced[box.DisplacedNum++] = frame;
+  restore(box, controller);
+  return true;
+}
+
 // Stores a frame beside displaced ones, one of which would be requested before it when the frame on the wire has been
 // sent. For a box with a single mailbox. Returns false if the frame need not be stored, or cannot.
 template <typename Box>
@@ -273,7 +291,7 @@ bool accept(Box& box, Controller& controller, const CO_IF_FRM& frame) {
   // Half of the places are reserved for frames of higher priority than all that wait.
   const unsigned room = order < waiting.lowest ? room_of<Box> : room_of<Box> / 2;
   if (displace(box, controller, order, room)) {
-    return fill(box, controller, frame);
+    return fill_in_order(box, controller, frame);
   }
   return mailboxes_of<Box> == 1 && store_beside(box, frame, room);
 }

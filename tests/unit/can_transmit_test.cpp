@@ -22,7 +22,7 @@ class Controller {
     completed_ = {};
     return completed;
   }
-  unsigned free_mailbox(unsigned used) const {
+  unsigned free_mailbox(unsigned used, const CO_IF_FRM& /*frame*/) const {
     unsigned n = 0;
     while (n < CO_CAN_MAILBOXES && (box_[n] || (used & (1U << n)) != 0)) {
       ++n;

@@ -57,7 +57,7 @@ class Mailboxes {
     return completed;
   }
 
-  unsigned free_mailbox(unsigned used) {
+  unsigned free_mailbox(unsigned used, const CO_IF_FRM& /*frame*/) {
     const std::uint32_t status = read(regs_.Tsr);
     unsigned n = 0;
     while (n < CO_CAN_MAILBOXES && ((used & (1U << n)) != 0 || (status & CO_BXCAN_TSR_TME(n)) == 0)) {

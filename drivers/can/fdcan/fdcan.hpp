@@ -74,7 +74,7 @@ class Driver {
     }
 
     // In queue mode the put index is that of the first free buffer.
-    unsigned free_mailbox(unsigned used) {
+    unsigned free_mailbox(unsigned used, const CO_IF_FRM& /*frame*/) {
       if (can_.WaitForIdle && is_receiver() && (read(regs_.Txbar) | read(regs_.Txbrp)) == 0) {
         return CO_CAN_MAILBOXES;
       }

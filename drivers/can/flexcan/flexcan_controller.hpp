@@ -71,7 +71,7 @@ class Mailboxes {
       : regs_(*can.Registers), layout_(layout_of(can)), is_loopback_(can.Loopback) {}
 
   transmit::Completed take_completed(unsigned used);
-  static unsigned free_mailbox(unsigned used);
+  static unsigned free_mailbox(unsigned used, const CO_IF_FRM& frame);
   void request(unsigned n, const CO_IF_FRM& frame);
   void abort(unsigned mailboxes);
   bool is_delayed(unsigned n);

@@ -150,7 +150,7 @@ transmit::Completed Mailboxes::take_completed(unsigned used) {
   return completed;
 }
 
-unsigned Mailboxes::free_mailbox(unsigned used) {
+unsigned Mailboxes::free_mailbox(unsigned used, const CO_IF_FRM& /*frame*/) {
   unsigned n = 0;
   while (n < CO_CAN_MAILBOXES && (used & (1U << n)) != 0) {
     ++n;

@@ -85,7 +85,7 @@ class Driver {
       return {1, is_sent ? 1U : 0U};
     }
 
-    unsigned free_mailbox(unsigned used) {
+    unsigned free_mailbox(unsigned used, const CO_IF_FRM& /*frame*/) {
       const bool is_free = (status_of(can_) & (CO_SJA1000_SR_TBS | CO_SJA1000_SR_BS)) == CO_SJA1000_SR_TBS;
       return used == 0 && is_free ? 0 : 1;
     }
