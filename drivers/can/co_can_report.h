@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_can_report.h
 /// States and events of a CAN controller that its driver has reported to the node. Part of the contexts of
-/// drivers/can/bxcan, fdcan, flexcan and sja1000; report.hpp has the functions.
+/// drivers/can/bxcan, fdcan, flexcan, mcp2515 and sja1000; report.hpp has the functions.
 #ifndef CO_CAN_REPORT_H_
 #define CO_CAN_REPORT_H_
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench.hpp"
 
+#include <stdexcept>
+
 #include "bit_timing.hpp"
 #include "bxcan.hpp"
 #include "bxcan_rates.hpp"
@@ -13,6 +15,8 @@
 #include "flexcan.hpp"
 #include "flexcan_rates.hpp"
 #include "m_can.hpp"
+#include "mcp2515.hpp"
+#include "mcp2515_rates.hpp"
 #include "pelican.hpp"
 #include "sja1000_rates.hpp"
 #include "support/notation.hpp"
@@ -289,9 +293,81 @@ class TwaiController : public Sja1000Base<CO_CAN_TWAI> {
   static inline PeliCan* only_one = nullptr;  // ESP32 has one controller
 };
 
+// Functions of the board: SPI to the model.
+void select_mcp2515(void* ctx, bool is_selected) {
+  Mcp2515& model = *static_cast<Mcp2515*>(ctx);
+  is_selected ? model.select() : model.deselect();
+}
+void transfer_mcp2515(void* ctx, std::uint8_t* bytes, std::uint8_t number) {
+  for (unsigned n = 0; n < number; ++n) {
+    bytes[n] = static_cast<Mcp2515*>(ctx)->transfer(bytes[n]);
+  }
+}
+bool mcp2515_has_interrupt(void* ctx) { return static_cast<Mcp2515*>(ctx)->interrupt(); }
+constexpr CO_MCP2515_SPI mcp2515_spi = {select_mcp2515, transfer_mcp2515, mcp2515_has_interrupt};
+constexpr CO_MCP2515_SPI mcp2515_spi_without_pin = {select_mcp2515, transfer_mcp2515, nullptr};
+
+class Mcp2515Controller : public Controller {
+ public:
+  Mcp2515Controller(CanWire& wire, const ControllerOptions& options)
+      : model(wire, model_options(options)), frames_(options.frames) {
+    driver = &Mcp2515CanDriver;
+    can_.Spi = options.has_interrupt_pin ? &mcp2515_spi : &mcp2515_spi_without_pin;
+    can_.SpiCtx = &model;
+    can_.Bus = options.spi_bus;
+    can_.Rates = rates_;
+    can_.RateNum = 1;
+    can_.Frames = frames_.data();
+    can_.FrameNum = options.frames;
+    can_.Recovery = options.recovery;
+    can_.Loopback = options.loopback;
+    const std::uint32_t clock = model_options(options).oscillator;
+    rates_[0] = co::mcp2515_rate(Bench::baud, co::find_bit_timing(clock / 2, Bench::baud, co::mcp2515_limits));
+  }
+
+  void* context() override { return &can_; }
+  // The interrupt is triggered by the falling edge of INT.
+  bool has_interrupt() const override {
+    const bool was_low = is_low_;
+    is_low_ = model.interrupt();
+    return is_low_ && !was_low;
+  }
+  void call_interrupt() override { COCanMcp2515Interrupt(&can_); }
+  bool has_frames() const override { return COCanMcp2515HasFrames(&can_); }
+  std::uint32_t lost() const override { return COCanMcp2515Lost(&can_); }
+  CO_CAN_ERROR_COUNTERS errors() const override { return COCanMcp2515Errors(&can_); }
+  CanNode& node() override { return model.node(); }
+  RegisterModel& registers() override { throw std::logic_error("MCP2515 has no memory-mapped registers"); }
+  bool has_faults() override { return !model.faults().empty(); }
+  std::string fault_text() override { return model.fault_text(); }
+  void on_access(std::function<void()> function) override { model.on_transfer = std::move(function); }
+  std::uint32_t bit_rate() const override { return model.bit_rate(); }
+  unsigned sample_point() const override { return model.sample_point(); }
+  void set_timing(std::uint32_t baud, std::uint32_t timing) override { rates_[0] = {baud, timing}; }
+  unsigned fifo_places() const override { return 2; }
+
+  Mcp2515 model;
+
+ private:
+  // The clock of the other controllers is too fast for this one.
+  static Mcp2515::Options model_options(const ControllerOptions& options) {
+    Mcp2515::Options result;
+    result.oscillator = options.clock == ControllerOptions{}.clock ? 16'000'000 : options.clock;
+    result.is_error_flag_sticky = options.is_error_flag_sticky;
+    return result;
+  }
+
+  CO_CAN_MCP2515_RATE rates_[1]{};
+  std::vector<CO_IF_FRM> frames_;
+  mutable CO_CAN_MCP2515 can_{};
+  mutable bool is_low_ = false;
+};
+
 bool is_error(const std::string& text) { return text.size() > 8 && text[8] == '#' && text[0] == '2'; }
 
 }  // namespace
+
+Mcp2515& mcp2515_of(Controller& controller) { return static_cast<Mcp2515Controller&>(controller).model; }
 
 std::string name_of(Kind kind) {
   switch (kind) {
@@ -303,6 +379,7 @@ std::string name_of(Kind kind) {
     case Kind::sja1000: return "SJA1000";
     case Kind::esp32: return "TWAI of ESP32";
     case Kind::esp32c3: return "TWAI of ESP32-C3";
+    case Kind::mcp2515: return "MCP2515";
   }
   return "";
 }
@@ -380,7 +457,7 @@ Bench::~Bench() {
   CHECK(unmatched_accesses().empty());
   for (const auto& one : controllers_) {
     if (checks_faults) {
-      CHECK_MESSAGE(one->registers().faults().empty(), one->registers().fault_text());
+      CHECK_MESSAGE(!one->has_faults(), one->fault_text());
     }
   }
   for (const auto& one : memory_) {
@@ -397,7 +474,9 @@ Controller& Bench::add(Kind kind, const ControllerOptions& options) {
     controllers_.push_back(std::make_unique<FlexcanController>(wire, kind, options));
   } else if (kind == Kind::sja1000) {
     controllers_.push_back(std::make_unique<Sja1000Controller>(wire, options));
-  } else if (kind == Kind::esp32 || kind == Kind::esp32c3) {
+  } else if (kind == Kind::mcp2515) {
+    controllers_.push_back(std::make_unique<Mcp2515Controller>(wire, options));
+  } else if (is_twai(kind)) {
     controllers_.push_back(std::make_unique<TwaiController>(wire, kind, options));
   } else {
     const unsigned words = kind == Kind::fdcan ? 2 * MCan::fixed_words : MCan::configurable_words;
@@ -445,7 +524,7 @@ void Bench::process_interrupts() {
 void Bench::interrupt_everywhere() {
   const auto hook = [this] { process_interrupts(); };
   for (const auto& one : controllers_) {
-    one->registers().on_access = hook;
+    one->on_access(hook);
   }
   for (const auto& one : memory_) {
     one->on_access = hook;

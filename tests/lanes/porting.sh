@@ -8,6 +8,7 @@ strict=(-std=c11 -pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow
 lane() {
   run_tap python3 "$root/tests/porting/excerpts.py" "$root" docs/porting.md
   run_tap python3 "$root/tests/porting/excerpts.py" --some "$root" docs/drivers/bxcan.md
+  run_tap python3 "$root/tests/porting/excerpts.py" --some "$root" docs/drivers/mcp2515.md
   run_tap python3 "$root/tests/porting/excerpts.py" --self-test
   local source
   for source in $(sources tests/porting tests/driver_check/example drivers/template -name '*.c'); do

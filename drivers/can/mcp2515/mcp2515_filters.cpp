@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mcp2515_filters.hpp"
+
+#include "../mask_filters.hpp"
+#include "../transmit.hpp"
+
+namespace co::mcp2515 {
+namespace {
+
+using mask_filters::count_bits;
+using Item = mask_filters::Filter<std::uint32_t>;
+
+constexpr std::uint32_t standard_mask = extended_bit | (std::uint32_t{0x7FF} << 18);
+constexpr std::uint32_t all_bits = extended_bit | 0x1FFFFFFF;
+constexpr unsigned most_items = 12;
+
+using Items = mask_filters::Filters<std::uint32_t, most_items>;
+
+Item exactly(std::uint32_t identifier) {
+  const std::uint32_t id = identifier & CO_IF_FRM_ID;
+  if (!transmit::is_extended(identifier)) {
+    return {id << 18, standard_mask};
+  }
+  return {id | extended_bit, all_bits};
+}
+
+// Returns the number of 11-bit identifiers, or of groups of 2^15 29-bit identifiers, that pass a filter.
+std::int32_t width(const Item& item) {
+  constexpr unsigned bits_of_group = 15;
+  const bool is_extended = (item.word & extended_bit) != 0;
+  const unsigned open = count_bits((is_extended ? all_bits : standard_mask) & ~item.mask);
+  const unsigned ignored = is_extended ? bits_of_group : 0;
+  return std::int32_t{1} << (open > ignored ? open - ignored : 0);
+}
+
+std::int32_t added_by_merging(const Item& a, const Item& b) {
+  const bool is_same_kind = ((a.word ^ b.word) & extended_bit) == 0;
+  return is_same_kind ? width(mask_filters::both(a, b)) - width(a) - width(b) : INT32_MAX;
+}
+
+// Returns the identifiers as at most most_items filters with different masks.
+Items items_of(const std::uint32_t* ids, unsigned num) {
+  Items items = {};
+  for (unsigned n = 0; n < num; ++n) {
+    const Item item = exactly(ids[n]);
+    if (mask_filters::passes(items, item)) {
+      continue;
+    }
+    items.filter[items.number++] = item;
+    if (items.number > most_items) {
+      mask_filters::merge_two(items, added_by_merging);
+    }
+  }
+  return items;
+}
+
+// Filters with a common mask.
+struct Group {
+  std::uint32_t mask = all_bits;
+  std::uint32_t word[most_items] = {};
+  unsigned number = 0;
+
+  std::int32_t cost() const {
+    std::int32_t sum = 0;
+    for (unsigned n = 0; n < number; ++n) {
+      sum += width({word[n], mask});
+    }
+    return sum;
+  }
+};
+
+// Returns the different words that the items of a set have under a mask; bit n of the set: item n.
+Group group_with(const Items& items, unsigned set, std::uint32_t mask) {
+  Group group;
+  group.mask = mask;
+  for (unsigned n = 0; n < items.number; ++n) {
+    const std::uint32_t word = items.filter[n].word & mask;
+    bool is_new = ((set >> n) & 1U) != 0;
+    for (unsigned i = 0; i < group.number; ++i) {
+      is_new = is_new && group.word[i] != word;
+    }
+    if (is_new) {
+      group.word[group.number++] = word;
+    }
+  }
+  return group;
+}
+
+std::uint32_t lowest_bit(std::uint32_t bits) { return bits & (~bits + 1); }
+
+// Returns the group after the removal of the bit from the mask that leaves the fewest words; among these, the one that
+// passes the fewest identifiers.
+Group without_a_bit(const Items& items, unsigned set, const Group& group) {
+  Group best = group;
+  bool is_first = true;
+  for (std::uint32_t left = group.mask & ~extended_bit; left != 0; left &= left - 1) {
+    const Group other = group_with(items, set, group.mask & ~lowest_bit(left));
+    const bool is_better =
+        other.number < best.number || (other.number == best.number && (is_first || other.cost() < best.cost()));
+    best = is_better ? other : best;
+    is_first = false;
+  }
+  return best;
+}
+
+// Returns at most \a most filters with a common mask that pass the items of a set. Bits that need not be ignored any
+// more are compared again.
+Group group_of(const Items& items, unsigned set, unsigned most) {
+  std::uint32_t mask = all_bits;
+  for (unsigned n = 0; n < items.number; ++n) {
+    mask &= ((set >> n) & 1U) != 0 ? items.filter[n].mask : all_bits;
+  }
+  Group group = group_with(items, set, mask);
+  while (group.number > most) {
+    group = without_a_bit(items, set, group);
+  }
+  for (std::uint32_t left = mask & ~group.mask; left != 0; left &= left - 1) {
+    const Group other = group_with(items, set, group.mask | lowest_bit(left));
+    group = other.number <= most ? other : group;
+  }
+  return group;
+}
+
+// Filters of both receive buffers.
+struct Pair {
+  Group group[receive_buffers];
+
+  std::int32_t cost() const { return group[0].cost() + group[1].cost(); }
+};
+
+// Returns the filters if buffer 0 receives a set of items, and buffer 1 the others.
+Pair pair_with(const Items& items, unsigned first) {
+  const unsigned all = (1U << items.number) - 1;
+  return {{group_of(items, first, filters_of_buffer[0]), group_of(items, all & ~first, filters_of_buffer[1])}};
+}
+
+// Moves the item between the buffers whose move leaves the fewest identifiers that pass. Returns the new set of buffer
+// 0, the present one if no move is better.
+unsigned improve(const Items& items, unsigned first, Pair& best) {
+  unsigned better = first;
+  for (unsigned n = 0; n < items.number; ++n) {
+    const Pair other = pair_with(items, first ^ (1U << n));
+    if (other.cost() < best.cost()) {
+      best = other;
+      better = first ^ (1U << n);
+    }
+  }
+  return better;
+}
+
+Pair best_pair_from(const Items& items, unsigned first) {
+  Pair best = pair_with(items, first);
+  for (unsigned next = improve(items, first, best); next != first; next = improve(items, first, best)) {
+    first = next;
+  }
+  return best;
+}
+
+// Copies the filters of a buffer. Filters that are not needed repeat others.
+void store(Filters& filters, unsigned buffer, const Group& group) {
+  filters.mask[buffer] = group.mask & ~extended_bit;
+  const unsigned first = buffer == 0 ? 0 : filters_of_buffer[0];
+  for (unsigned n = 0; n < filters_of_buffer[buffer]; ++n) {
+    filters.word[first + n] = group.word[n < group.number ? n : 0];
+  }
+}
+
+}  // namespace
+
+Filters filters_of(const std::uint32_t* ids, unsigned num) {
+  constexpr std::uint32_t nobody = CO_IF_FRM_EXT | 0x1FFFFFFF;
+  const Items items = num != 0 ? items_of(ids, num) : items_of(&nobody, 1);
+  Pair best = best_pair_from(items, 0);
+  const Pair other = best_pair_from(items, (1U << items.number) - 1);
+  best = other.cost() < best.cost() ? other : best;
+  Filters filters = {};
+  store(filters, 0, best.group[0].number != 0 ? best.group[0] : best.group[1]);
+  store(filters, 1, best.group[1].number != 0 ? best.group[1] : best.group[0]);
+  return filters;
+}
+
+bool all_pass(const Filters& filters, const std::uint32_t* ids, unsigned num) {
+  for (unsigned n = 0; n < num; ++n) {
+    const std::uint32_t word = exactly(ids[n]).word;
+    bool passes = false;
+    for (unsigned i = 0; i < filter_number; ++i) {
+      const std::uint32_t mask = filters.mask[i < filters_of_buffer[0] ? 0 : 1] | extended_bit;
+      passes = passes || ((word ^ filters.word[i]) & mask) == 0;
+    }
+    if (!passes) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace co::mcp2515
