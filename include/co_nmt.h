@@ -168,8 +168,8 @@ extern const CO_OBJ_TYPE COTNmtStartup;  ///< functions of CO_TNMT_STARTUP
 /// [CiA 301, 7.5.2.32] Data: a uint8_t, or the value itself (flag D). Sub 1 is the reaction to the loss of the network:
 /// bus-off, a missing heartbeat of a monitored node, or a missing NMT master (life guarding). 0, or without the object:
 /// a node in Operational enters Pre-operational; 1: none; 2: the node enters Stopped, also from Pre-operational. The
-/// reaction occurs once for each loss. Other sub-indices are evaluated by the application only. All other values are
-/// refused (0609 0030h).
+/// reaction occurs once for each loss. Sub 2...254 are the reactions to errors of the device, which the application
+/// executes by COErrorBehaviour(). All other values are refused (0609 0030h).
 /// \{
 
 #define CO_ERROR_BEHAVIOUR_PREOP 0u  ///< from Operational to Pre-operational
@@ -179,6 +179,15 @@ extern const CO_OBJ_TYPE COTNmtStartup;  ///< functions of CO_TNMT_STARTUP
 extern const CO_OBJ_TYPE COTErrorBehaviour;  ///< functions of CO_TERROR_BEHAVIOUR
 
 #define CO_TERROR_BEHAVIOUR ((const CO_OBJ_TYPE*)&COTErrorBehaviour)  ///< type of 1029h
+
+/// Executes the reaction of 1029h sub-index \a sub, 1...254, to an error of the device: enters Pre-operational or
+/// Stopped, or keeps the NMT state, like the reaction to the loss of the network (sub 1). Without the entry it is
+/// CO_ERROR_BEHAVIOUR_PREOP, the default for serious device failures. To be called once when the error occurs. An
+/// EMCY message should be sent before (COEmcySet()), because Stopped does not allow it. Context: the loop.
+/// \retval CO_ERR_NONE      the reaction was executed
+/// \retval CO_ERR_BAD_ARG   \a node is null, or \a sub is 0 or 255
+/// \retval CO_ERR_NMT_MODE  the node is in CO_INIT or CO_INVALID
+CO_ERR COErrorBehaviour(struct CO_NODE_T* node, uint8_t sub);
 /// \}
 
 #ifdef __cplusplus

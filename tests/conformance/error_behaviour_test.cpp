@@ -128,6 +128,71 @@ TEST_CASE("1029h: its type is accepted at 1029h only, and with one byte") {
 #endif
 }
 
+CO_ERR apply(Fixture& node, std::uint8_t sub) {
+  CO_ERR err = CO_ERR_NONE;
+  node.call([&] { err = COErrorBehaviour(&node.node, sub); });
+  return err;
+}
+
+TEST_CASE("1029h: COErrorBehaviour executes the reaction of each sub-index from every state [B3]") {
+  for (unsigned sub = 1; sub <= 254; ++sub) {
+    CAPTURE(sub);
+    std::uint8_t value = 0;
+    Fixture node(Setup().only_small().with(
+        {CO_KEY(0x1029, static_cast<std::uint8_t>(sub), CO_OBJ_____RW), CO_TERROR_BEHAVIOUR, &value}));
+    const CO_MODE expected[3][3] = {
+        {CO_PREOP, CO_PREOP, CO_STOP}, {CO_PREOP, CO_OPERATIONAL, CO_STOP}, {CO_STOP, CO_STOP, CO_STOP}};
+    const char* const commands[3] = {"000#8001", "000#0101", "000#0201"};
+    for (value = 0; value < 3; ++value) {
+      for (unsigned state = 0; state < 3; ++state) {
+        node.rx(commands[state]);
+        CHECK(apply(node, static_cast<std::uint8_t>(sub)) == CO_ERR_NONE);
+        CHECK(node.mode() == expected[value][state]);
+      }
+    }
+  }
+}
+
+TEST_CASE("1029h: COErrorBehaviour uses only the entry of its sub-index [B3]") {
+  Behaviour device(1);  // sub 1: no change, sub 2: Pre-operational
+  device.node.rx("000#0101");
+  CHECK(apply(device.node, 1) == CO_ERR_NONE);
+  CHECK(device.node.mode() == CO_OPERATIONAL);
+  CHECK(apply(device.node, 2) == CO_ERR_NONE);
+  CHECK(device.node.mode() == CO_PREOP);
+}
+
+TEST_CASE("1029h: COErrorBehaviour without the entry enters Pre-operational from Operational [B3]") {
+  Behaviour device(2);
+  device.node.rx("000#0101");
+  CHECK(apply(device.node, 3) == CO_ERR_NONE);
+  CHECK(device.node.mode() == CO_PREOP);
+  CHECK(apply(device.node, 3) == CO_ERR_NONE);
+  CHECK(device.node.mode() == CO_PREOP);
+}
+
+TEST_CASE("1029h: COErrorBehaviour refuses wrong arguments and nodes that do not run [B3]") {
+  CHECK(COErrorBehaviour(nullptr, 2) == CO_ERR_BAD_ARG);
+  Behaviour device(2, Setup().stay_in_init());
+  CHECK(apply(device.node, 0) == CO_ERR_BAD_ARG);
+  CHECK(apply(device.node, 255) == CO_ERR_BAD_ARG);
+  CHECK(apply(device.node, 1) == CO_ERR_NMT_MODE);
+  CHECK(device.node.mode() == CO_INIT);
+  device.node.call([&] { CONodeStop(&device.node.node); });
+  CHECK(apply(device.node, 1) == CO_ERR_NMT_MODE);
+  CHECK(device.node.mode() == CO_INVALID);
+}
+
+TEST_CASE("1029h: COErrorBehaviour may be called while a frame is processed [B3] [Q9]") {
+  std::uint8_t value = 2;
+  Fixture node(Setup().with({CO_KEY(0x1029, 9, CO_OBJ_____R_), CO_TERROR_BEHAVIOUR, &value}));
+  callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
+    if (mode == CO_OPERATIONAL) CHECK(COErrorBehaviour(nmt->Node, 9) == CO_ERR_NONE);
+  };
+  node.rx("000#0101");
+  CHECK(node.mode() == CO_STOP);
+}
+
 #if CO_HBCONS_N > 0
 
 TEST_CASE("1029h: two nodes with missing heartbeats cause one reaction each, none while they stay missing [B2]") {

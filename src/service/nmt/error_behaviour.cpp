@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1029h: reaction of the node to the loss of the network. [301:7.5.2.32]
+// 1029h: reactions of the node to the loss of the network and to errors of the device. [301:7.5.2.32]
 #include "co_nmt.h"
 
 #include "base/events.hpp"
@@ -9,33 +9,38 @@
 namespace co::nmt {
 namespace {
 
-// Returns the value of 1029h:1, the reaction to a communication error; without the object the default.
-uint8_t communication_error(CO_NODE& node) {
+constexpr uint8_t communication_error = 1;
+
+// Returns the value of a sub-index of 1029h; without the entry the default.
+uint8_t behaviour_for(CO_NODE& node, uint8_t sub) {
   uint8_t behaviour = CO_ERROR_BEHAVIOUR_PREOP;
-  const CO_ERR err = CODictRdByte(&node.Dict, CO_DEV(0x1029, 1), &behaviour);
+  const CO_ERR err = CODictRdByte(&node.Dict, CO_DEV(0x1029, sub), &behaviour);
   return err == CO_ERR_NONE ? behaviour : CO_ERROR_BEHAVIOUR_PREOP;
 }
 
 }  // namespace
 
-void lose_communication(CO_NODE& node) {
+bool react(CO_NODE& node, uint8_t sub) {
   if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
-    return;
+    return false;
   }
-  const uint8_t behaviour = communication_error(node);
+  const uint8_t behaviour = behaviour_for(node, sub);
   if (behaviour == CO_ERROR_BEHAVIOUR_STOP) {
     event::change_mode(node, CO_STOP);
   } else if (behaviour != CO_ERROR_BEHAVIOUR_NONE && node.Nmt.Mode == CO_OPERATIONAL) {
     event::change_mode(node, CO_PREOP);
   }
+  return true;
 }
+
+void lose_communication(CO_NODE& node) { (void)react(node, communication_error); }
 
 // The bit rate is switched by LSS. Unlike in lose_communication(), the node leaves Operational in any case.
 CO_MODE mode_for_switch(CO_NODE& node) {
   if (node.Nmt.Mode != CO_OPERATIONAL) {
     return node.Nmt.Mode;
   }
-  return communication_error(node) == CO_ERROR_BEHAVIOUR_STOP ? CO_STOP : CO_PREOP;
+  return behaviour_for(node, communication_error) == CO_ERROR_BEHAVIOUR_STOP ? CO_STOP : CO_PREOP;
 }
 
 }  // namespace co::nmt
@@ -59,4 +64,17 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 }  // namespace
 
-extern "C" const CO_OBJ_TYPE COTErrorBehaviour = {size, dict::checked_by<rules::error_behaviour>, read, write, nullptr};
+extern "C" {
+
+const CO_OBJ_TYPE COTErrorBehaviour = {size, dict::checked_by<rules::error_behaviour>, read, write, nullptr};
+
+CO_ERR COErrorBehaviour(CO_NODE* node, uint8_t sub) {
+  if (node == nullptr || sub == 0 || sub > rules::error_behaviour.last_sub) {
+    return CO_ERR_BAD_ARG;
+  }
+  const bool done = nmt::react(*node, sub);
+  event::run_deferred(*node);
+  return done ? CO_ERR_NONE : CO_ERR_NMT_MODE;
+}
+
+}  // extern "C"

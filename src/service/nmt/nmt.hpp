@@ -17,6 +17,9 @@ void init(CO_NODE& node);
 // Executes the self-start by 1F80h.
 void on_mode(CO_NODE& node);
 
+// Executes the reaction of 1029h with this sub-index. Returns false, without effect, in CO_INIT and CO_INVALID.
+bool react(CO_NODE& node, uint8_t sub);
+
 // Executes the reaction of 1029h:1.
 void lose_communication(CO_NODE& node);
 
