@@ -183,6 +183,44 @@ void COEmcyReset(CO_EMCY* emcy, uint8_t silent) CO_NEEDS(USE_EMCY);
 /// Empties 1003h, as writing 0 to its sub-index 0 does.
 void COEmcyHistReset(CO_EMCY* emcy) CO_NEEDS(USE_EMCY);
 
+/// \name Error status bits
+/// An object of any index that shows the state of each error as an octet string: bit n of the string (bit n % 8 of byte
+/// n / 8) is 1 while error n of the application is set (COEmcySet()). Two more bytes can show the errors that the stack
+/// detects. The network reads the object by any SDO transfer; only the application changes the bits, by COEmcySet(),
+/// COEmcyClr() and COEmcyReset(): writes are refused (0601 0002h). A string of up to 8 bytes can be mapped into TPDOs,
+/// and each change of a bit triggers the event-driven ones. In a transfer of several segments each byte has the value
+/// at the time of its segment.
+///
+///     static CO_EMCY_BITS ErrorBits = {0, 4, 0};  // errors 0...31
+///     {CO_KEY(0x2100, 0, CO_OBJ____PR_), CO_TEMCY_BITS, (CO_DATA)(&ErrorBits)},
+/// \{
+
+/// An object that shows error status bits, in RAM.
+typedef struct CO_EMCY_BITS_T {
+  uint32_t Offset;  ///< position of the next access
+  /// Bytes with errors of the application: 1...255, 0: as many as the table of errors needs (CO_NODE_EXT.EmcyNum, or
+  /// CO_EMCY_N). Bits without an error are 0.
+  uint8_t Size;
+  uint8_t Stack;  ///< 1: two bytes with the errors of the stack follow (CO_EMCY_BIT_...); 0: none
+} CO_EMCY_BITS;
+
+#define CO_EMCY_BIT_OVERRUN 0       ///< 8110h: received frames were lost
+#define CO_EMCY_BIT_COLLISION 1     ///< 8150h: CAN-ID collision
+#define CO_EMCY_BIT_PASSIVE 2       ///< 8120h: error passive
+#define CO_EMCY_BIT_HEARTBEAT 3     ///< 8130h: a node is missing
+#define CO_EMCY_BIT_LIFE_GUARD 4    ///< 8130h: the NMT master is missing
+#define CO_EMCY_BIT_BUS_OFF 5       ///< 8140h: bus-off, until the recovery is reported
+#define CO_EMCY_BIT_PDO_SHORT 6     ///< 8210h: PDO too short
+#define CO_EMCY_BIT_PDO_LONG 7      ///< 8220h: PDO too long
+#define CO_EMCY_BIT_PDO_UNKNOWN 8   ///< 8230h: no object for an MPDO
+#define CO_EMCY_BIT_SYNC_LENGTH 9   ///< 8240h: SYNC with wrong length
+#define CO_EMCY_BIT_PDO_TIMEOUT 10  ///< 8250h: RPDO missing
+
+extern const CO_OBJ_TYPE COTEmcyBits CO_NEEDS(USE_EMCY);  ///< functions of CO_TEMCY_BITS
+
+#define CO_TEMCY_BITS ((const CO_OBJ_TYPE*)&COTEmcyBits)  ///< OCTET_STRING; Data: a CO_EMCY_BITS
+/// \}
+
 /// \name Callbacks of the application
 /// Ordinary functions to be defined by the application (see co_nmt.h); the defaults do nothing.
 /// \{

@@ -142,6 +142,7 @@ inline constexpr Type types[] = {
     {&COTEmcyHist, rules::emcy_history_number, Value::unsigned_integer, 1},
     {&COTEmcyHist, rules::emcy_history, Value::unsigned_integer, 4},
     {&COTEmcyId, rules::emcy_cob_id, Value::unsigned_integer, 4},
+    {&COTEmcyBits, rules::variable, Value::bytes, 0},
 #endif
 #if CO_EMCY_CONS_N > 0
     {&COTEmcyCons, rules::emcy_consumer, Value::unsigned_integer, 4},

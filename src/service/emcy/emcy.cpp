@@ -50,9 +50,11 @@ constexpr uint8_t mask(unsigned err) { return static_cast<uint8_t>(1U << (err % 
 
 bool is_set(const CO_EMCY& emcy, unsigned err) { return (emcy.Err[err / 8] & mask(err)) != 0; }
 
-unsigned table_length(const CO_EMCY& emcy) {
-  const unsigned given = emcy.Node->Ext->EmcyNum;
-  return given != 0 && given < CO_EMCY_N ? given : CO_EMCY_N;
+// Reports that a bit of the error status has changed.
+void show_bits(CO_NODE& node) {
+  if (report_bits != nullptr) {
+    report_bits(node);
+  }
 }
 
 // Sets or clears an error. Returns false if it has that state already, or if there is no such error (reported as the
@@ -217,6 +219,13 @@ void resolve_held(void* node_pointer) {
   }
 }
 
+// Reports the bit of a fault that has no occurrence left.
+void show_if_gone(CO_NODE& node, Fault fault) {
+  if (number_of(node, fault) == 0) {
+    show_bits(node);
+  }
+}
+
 // The controller ------------------------------------------------------------------------------------------------------
 
 // Begins bus-off. Nothing can be sent: only sets the error register, and 8140h is sent after the recovery.
@@ -240,6 +249,11 @@ void recover(CO_NODE& node) {
 }
 
 }  // namespace
+
+unsigned table_length(const CO_EMCY& emcy) {
+  const unsigned given = emcy.Node->Ext->EmcyNum;
+  return given != 0 && given < CO_EMCY_N ? given : CO_EMCY_N;
+}
 
 void init(CO_NODE& node) {
   for (uint16_t& number : node.Emcy.Fault) {
@@ -278,12 +292,16 @@ void raise(CO_NODE& node, Fault fault, uint8_t detail) {
   }
   ++number;
   report_fault(node, fault, detail);
+  if (number == 1) {
+    show_bits(node);
+  }
 }
 
 void resolve(CO_NODE& node, Fault fault, uint8_t detail) {
   if (number_of(node, fault) != 0) {
     --number_of(node, fault);
     report_gone(node, detail);
+    show_if_gone(node, fault);
   }
 }
 
@@ -291,6 +309,7 @@ void forget(CO_NODE& node, Fault fault) {
   if (number_of(node, fault) != 0) {
     --number_of(node, fault);
     update_register(node);
+    show_if_gone(node, fault);
   }
 }
 
@@ -337,6 +356,8 @@ void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) {
   ASSERT_PTR_FATAL(emcy->Node);
   if (emcy::change(*emcy, err, true)) {
     emcy::report_error(*emcy->Node, emcy->Root[err].Code, usr != nullptr ? *usr : emcy::nothing_added);
+    emcy::show_bits(*emcy->Node);
+    event::run_deferred(*emcy->Node);
   }
 }
 
@@ -345,6 +366,8 @@ void COEmcyClr(CO_EMCY* emcy, uint8_t err) {
   ASSERT_PTR_FATAL(emcy->Node);
   if (emcy::change(*emcy, err, false)) {
     emcy::report_gone(*emcy->Node, 0);
+    emcy::show_bits(*emcy->Node);
+    event::run_deferred(*emcy->Node);
   }
 }
 
@@ -369,16 +392,21 @@ int16_t COEmcyCnt(CO_EMCY* emcy) {
 void COEmcyReset(CO_EMCY* emcy, uint8_t silent) {
   ASSERT_PTR_FATAL(emcy);
   ASSERT_PTR_FATAL(emcy->Node);
+  bool changed = false;
   for (uint16_t err = 0; err < CO_EMCY_N; ++err) {
     if (!emcy::is_set(*emcy, err)) {
       continue;
     }
-    emcy::change(*emcy, err, false);
+    changed = emcy::change(*emcy, err, false) || changed;
     if (silent == 0) {
       emcy::report_gone(*emcy->Node, 0);
     }
   }
   emcy::update_register(*emcy->Node);
+  if (changed) {
+    emcy::show_bits(*emcy->Node);
+    event::run_deferred(*emcy->Node);
+  }
 }
 
 void COEmcyHistReset(CO_EMCY* emcy) {

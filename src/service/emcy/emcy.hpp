@@ -21,6 +21,13 @@ void report_can(CO_NODE& node, CO_CAN_EVENT what);
 // Clears the application's errors and the history.
 void forget_application(CO_NODE& node);
 
+// Returns the number of errors of the application.
+[[nodiscard]] unsigned table_length(const CO_EMCY& emcy);
+
+// Triggers the TPDOs that map error status bits. Weak: null unless a dictionary has an object of CO_TEMCY_BITS, whose
+// file defines the function.
+[[gnu::weak]] void report_bits(CO_NODE& node);
+
 // Returns the identifier of EMCY messages; wire::no_frame: no messages are sent.
 [[nodiscard]] uint32_t identifier(CO_NODE& node);
 
