@@ -22,7 +22,9 @@
 
 #include "co_emcy.h"
 #include "co_heartbeat.h"
+#include "co_module_list.h"
 #include "co_nmt.h"
+#include "co_os.h"
 #include "co_para.h"
 #include "co_pdo_types.h"
 #include "co_sdo.h"
@@ -315,6 +317,18 @@ void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event);
 
 /// Returns a copy of the counters; all are 0 if \a node is null.
 CO_NODE_COUNTERS CONodeGetCounters(const CO_NODE* node);
+
+/// Sets the manufacturer status register, 1002h (a CO_TUNSIGNED32, not flag D), to \a status. A change triggers the
+/// event-driven TPDOs that map it, with or without flag A. [CiA 301, 7.5.2.3]
+/// \retval CO_ERR_NONE           1002h has the value
+/// \retval CO_ERR_BAD_ARG        \a node is null or was never initialised
+/// \retval CO_ERR_OBJ_NOT_FOUND  there is no 1002h
+/// \retval CO_ERR_OBJ_ACC        1002h holds its value in the table (flag D), or is in read-only memory
+/// \retval CO_ERR_OBJ_SIZE       1002h is not a number of 32 bits
+CO_ERR CONodeSetStatus(CO_NODE* node, uint32_t status);
+
+/// Returns the manufacturer status register, 1002h; 0 if it cannot be read, or \a node is null.
+uint32_t CONodeGetStatus(CO_NODE* node);
 
 /// Returns CO_NODE_EXT.User; null if there is none, or \a node is null.
 void* CONodeGetUser(const CO_NODE* node);

@@ -31,6 +31,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_domain.h"
 #include "co_emcy.h"
 #include "co_heartbeat.h"
+#include "co_module_list.h"
 #include "co_nmt.h"
 #include "co_number.h"
 #include "co_obj.h"
@@ -39,6 +40,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_od.h"
 #endif
 #include "co_number.h"
+#include "co_os.h"
 #include "co_para.h"
 #include "co_pdo_types.h"
 #include "co_sdo.h"
@@ -138,6 +140,7 @@ inline constexpr Type types[] = {
     {&COTOctetString, rules::variable, Value::bytes, 0},
     {&COTUnicodeString, rules::variable, Value::bytes, 0},
     {&COTDomain, rules::variable, Value::bytes, 0},
+    {&COTDomainRo, rules::variable, Value::bytes, 0},
 #if USE_EMCY
     {&COTEmcyHist, rules::emcy_history_number, Value::unsigned_integer, 1},
     {&COTEmcyHist, rules::emcy_history, Value::unsigned_integer, 4},
@@ -152,6 +155,16 @@ inline constexpr Type types[] = {
     {&COTNmtHbCons, rules::heartbeat_consumers, Value::unsigned_integer, 1},
     {&COTNmtHbCons, rules::heartbeat_consumer, Value::unsigned_integer, 4},
 #endif
+    {&COTModuleList, rules::module_number, Value::unsigned_integer, 1},
+    {&COTModuleList, rules::module_list, Value::unsigned_integer, 2},
+#if USE_OBJ_EX
+    {&COTOsCommand.Type, rules::os_command, Value::bytes, 0},
+    {&COTOsStatus, rules::os_status, Value::unsigned_integer, 1},
+    {&COTOsReply.Type, rules::os_reply, Value::bytes, 0},
+    {&COTOsMode, rules::os_mode, Value::unsigned_integer, 1},
+#endif
+    {&COTOsStdin, rules::os_input, Value::unsigned_integer, 1},
+    {&COTOsStdout, rules::os_output, Value::unsigned_integer, 1},
     {&COTNmtStartup, rules::nmt_startup, Value::unsigned_integer, 4},
     {&COTNmtHbProd, rules::heartbeat_producer, Value::unsigned_integer, 2},
     {&COTSdoId, rules::sdo_cob_id, Value::unsigned_integer, 4},

@@ -175,6 +175,22 @@ inline constexpr Rule pdo_mapping{0x1600, 0x17FF, 1, 64, 4, false, true};
 inline constexpr Rule pdo_scan{0x1FA0, 0x1FCF, 1, 254, 4, false, false};
 /// 1FD0h…1FFFh: object dispatching list
 inline constexpr Rule pdo_dispatch{0x1FD0, 0x1FFF, 1, 254, 8, false, false};
+/// 1023h and 1025h, sub 1: command (1024h has no sub-indices)
+inline constexpr Rule os_command{0x1023, 0x1025, 1, 1, 0, false, false};
+/// 1023h and 1025h, sub 2: status
+inline constexpr Rule os_status{0x1023, 0x1025, 2, 2, 0, false, false};
+/// 1023h and 1025h, sub 3: reply
+inline constexpr Rule os_reply{0x1023, 0x1025, 3, 3, 0, false, false};
+/// 1024h: OS command mode
+inline constexpr Rule os_mode{0x1024, 0x1024, 0, 0, 0, false, false};
+/// 1026h, sub 1: StdIn
+inline constexpr Rule os_input{0x1026, 0x1026, 1, 1, 0, false, false};
+/// 1026h, sub 2 and 3: StdOut and StdErr
+inline constexpr Rule os_output{0x1026, 0x1026, 2, 3, 0, false, false};
+/// 1027h, sub 0: number of modules
+inline constexpr Rule module_number{0x1027, 0x1027, 0, 0, 0, false, false};
+/// 1027h, all sub-indices
+inline constexpr Rule module_list{0x1027, 0x1027, 0, 254, 0, false, false};
 /// \}
 
 /// Returns whether an index is in the range of a rule; the indices of TPDOs are not considered.

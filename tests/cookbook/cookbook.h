@@ -35,6 +35,14 @@ void a_damaged_record_is_reported(void);
 void resets_restore_power_on_values(void);
 void a_string_is_written_and_read(void);
 void a_domain_is_written_in_segments(void);
+void a_change_of_the_status_sends_the_tpdo(void);
+void error_status_bits_show_each_error(void);
+void an_error_of_the_device_stops_the_node(void);
+void the_modules_of_a_device_are_read(void);
+void the_eds_is_read_from_the_device(void);
+void a_command_is_executed_and_answered(void);
+void stored_commands_are_executed_later(void);
+void the_prompt_echoes_characters(void);
 void a_user_type_refuses_a_value(void);
 void a_user_type_computes_its_value(void);
 

@@ -32,6 +32,14 @@ int main(void) {
   RUN_TEST(resets_restore_power_on_values);
   RUN_TEST(a_string_is_written_and_read);
   RUN_TEST(a_domain_is_written_in_segments);
+  RUN_TEST(a_change_of_the_status_sends_the_tpdo);
+  RUN_TEST(error_status_bits_show_each_error);
+  RUN_TEST(an_error_of_the_device_stops_the_node);
+  RUN_TEST(the_modules_of_a_device_are_read);
+  RUN_TEST(the_eds_is_read_from_the_device);
+  RUN_TEST(a_command_is_executed_and_answered);
+  RUN_TEST(stored_commands_are_executed_later);
+  RUN_TEST(the_prompt_echoes_characters);
   RUN_TEST(a_user_type_refuses_a_value);
   RUN_TEST(a_user_type_computes_its_value);
   return UNITY_END();

@@ -108,6 +108,18 @@ uint32_t Values[VALUES];
 #ifdef OBJECTS
 OD_entry_t Index[OBJECTS];
 #endif
+#ifdef ERROR_BITS
+CO_EMCY_BITS ErrorBits[ERROR_BITS];
+#endif
+#ifdef CONSTANT_DOMAINS
+CO_OBJ_DOM_RO ConstantDomains[CONSTANT_DOMAINS];
+#endif
+#ifdef COMMANDS
+CO_OS_COMMAND Commands[COMMANDS];
+#endif
+#ifdef PROMPTS
+CO_OS_PROMPT Prompts[PROMPTS];
+#endif
 const CO_OBJ Dictionary[ENTRIES] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0}};
 
 #ifdef MAIN

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1027h, module list. [301:7.5.2.30]
+#include "co_module_list.h"
+
+#include "co_core.h"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/place.hpp"
+
+namespace {
+
+using namespace co;
+
+uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) {
+  if (uintptr_t{obj->Data} == 0) {
+    return 0;
+  }
+  return CO_GET_SUB(obj->Key) == 0 ? sizeof(uint8_t) : sizeof(uint16_t);
+}
+
+// Reads a value of width bytes in the byte order of the CPU.
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t width) {
+  const auto* const list = data_of<const CO_MODULE_LIST>(*obj);
+  if (width == 0 || width != size(obj, node, 0)) {
+    return CO_ERR_BAD_ARG;
+  }
+  if (list->Read == nullptr) {
+    return CO_ERR_OBJ_NO_DATA;
+  }
+  uint16_t value = 0;
+  const CO_ERR err = list->Read(node, node->Ext->User, CO_GET_SUB(obj->Key), &value);
+  if (err != CO_ERR_NONE) {
+    return err;
+  }
+  if (width == sizeof value) {
+    __builtin_memcpy(buffer, &value, sizeof value);
+  } else {
+    *static_cast<uint8_t*>(buffer) = static_cast<uint8_t>(value);
+  }
+  return CO_ERR_NONE;
+}
+
+}  // namespace
+
+extern "C" const CO_OBJ_TYPE COTModuleList = {size, co::dict::checked_by<co::rules::module_list>, read, nullptr,
+                                              nullptr};

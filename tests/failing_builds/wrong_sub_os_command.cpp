@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'1', '0', '2', '3'>, co::Sub<'0', '2'>
+// The status of 1023h with the type of the command.
+#include "lexican/dictionary.hpp"
+
+CO_OS_COMMAND os;
+
+constexpr CO_OBJ od[] = {
+    {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x1023, 2, CO_OBJ_____R_), CO_TOS_COMMAND, (CO_DATA)(&os)},
+    CO_OBJ_DICT_ENDMARK,
+};
+CO_OD_CHECK(od);
