@@ -199,6 +199,11 @@
 #define USE_TIME 0
 #endif
 
+/// Global fail-safe command (1300h, co_gfc.h): 0 or 1. 1 costs 350 bytes of flash (Cortex-M0+, -Os) and 6 bytes of RAM.
+#ifndef USE_GFC
+#define USE_GFC 0
+#endif
+
 /// EMCY producer, error register and history (1001h, 1003h, 1014h, 1015h): 0 or 1.
 #ifndef USE_EMCY
 #define USE_EMCY 1

@@ -95,6 +95,7 @@ typedef struct CO_CALLBACKS_T {
   /// CONodeInit() and by NMT resets: in CO_INIT, before anything uses the values. No EMCY can be sent then;
   /// docs/storage.md shows how to send one.
   void (*ParaRecovered)(struct CO_NODE_T* node, void* user, const struct CO_PARA_T* group);
+  void (*GfcReceived)(struct CO_NODE_T* node, void* user);  ///< see COGfcReceived()
 #if USE_ACCESS_HOOK
   /// Called when a client initiates an SDO transfer: expedited, segmented or block, in either direction. 1010h and
   /// 1011h are objects like any other.

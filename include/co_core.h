@@ -34,6 +34,7 @@
 #include "co_csdo.h"
 #include "co_dict.h"
 #include "co_emcy.h"
+#include "co_gfc.h"
 #include "co_if.h"
 #include "co_led.h"
 #include "co_lss.h"

@@ -30,6 +30,9 @@
 #ifndef USE_TIME
 #define USE_TIME 1
 #endif
+#ifndef USE_GFC
+#define USE_GFC 1
+#endif
 #ifndef CO_EMCY_CONS_N
 #define CO_EMCY_CONS_N 8
 #endif

@@ -30,6 +30,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 #include "co_domain.h"
 #include "co_emcy.h"
+#include "co_gfc.h"
 #include "co_heartbeat.h"
 #include "co_module_list.h"
 #include "co_nmt.h"
@@ -190,6 +191,9 @@ inline constexpr Type types[] = {
     {&COTSyncId, rules::sync_cob_id, Value::unsigned_integer, 4},
     {&COTSyncCycle, rules::sync_cycle, Value::unsigned_integer, 4},
     {&COTSyncCount, rules::sync_counter, Value::unsigned_integer, 1},
+#endif
+#if USE_GFC
+    {&COTGfc, rules::global_fail_safe, Value::unsigned_integer, 1},
 #endif
 #if USE_TIME
     {&COTTimeId, rules::time_cob_id, Value::unsigned_integer, 4},

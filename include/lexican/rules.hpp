@@ -151,6 +151,8 @@ inline constexpr Rule emcy_consumer{0x1028, 0x1028, 1, 127, 4, false, false};
 inline constexpr Rule sdo_cob_id{0x1200, 0x12FF, 1, 2, 4, true, false};
 /// 1012h: COB-ID of TIME
 inline constexpr Rule time_cob_id{0x1012, 0x1012, 0, 0, 4, true, false};
+/// 1300h: global fail-safe command
+inline constexpr Rule global_fail_safe{0x1300, 0x1300, 0, 0, 1, false, false};
 /// 1005h: COB-ID of SYNC
 inline constexpr Rule sync_cob_id{0x1005, 0x1005, 0, 0, 4, true, false};
 /// 1006h and 1007h: period of SYNC, and window of synchronous PDOs

@@ -99,6 +99,11 @@ inline void update_time(CO_NODE& node, const CO_TIME_OF_DAY& time) {
   return function != nullptr ? function(&node, node.Ext->User, &time) : COTimeUpdate(&node, &time);
 }
 
+inline void receive_gfc(CO_NODE& node) {
+  const auto function = find(node, &CO_CALLBACKS::GfcReceived);
+  return function != nullptr ? function(&node, node.Ext->User) : COGfcReceived(&node);
+}
+
 inline void change_leds(CO_NODE& node, uint8_t leds) {
   const auto function = find(node, &CO_CALLBACKS::LedChange);
   return function != nullptr ? function(&node, node.Ext->User, leds) : COLedChange(&node, leds);

@@ -31,6 +31,9 @@ enum class Service : uint8_t {
 #if CO_TPDO_N > 0
   tpdo,
 #endif
+#if USE_GFC
+  gfc,
+#endif
 #if CO_EMCY_CONS_N > 0
   emcy_consumer,
 #endif

@@ -9,6 +9,7 @@
 #include "co_assert.h"
 #include "hal/port.hpp"
 #include "service/emcy/emcy.hpp"
+#include "service/gfc/gfc.hpp"
 #include "service/guarding/guarding.hpp"
 #include "service/heartbeat/heartbeat.hpp"
 #include "service/led/led.hpp"
@@ -74,6 +75,9 @@ constexpr Service table[] = {
 #if CO_TPDO_N > 0
     {Id::tpdo, CO_PDO_ALLOWED, mpdo_streams, init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, continue_mpdos,
      nullptr},
+#endif
+#if USE_GFC
+    {Id::gfc, CO_PDO_ALLOWED, 0, gfc::init, gfc::on_frame, no_frames, nullptr, nullptr, nullptr},
 #endif
 #if CO_EMCY_CONS_N > 0
     {Id::emcy_consumer, CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, no_frames, nullptr, nullptr, nullptr},

@@ -8,6 +8,7 @@ namespace co::wire {
 
 enum class CobId : uint32_t {
   nmt = 0x000,
+  gfc = 0x001,
   sdo_tx = 0x580,
   sdo_rx = 0x600,
   error_control = 0x700,

@@ -43,6 +43,9 @@ void COPdoUpdate(CO_RPDO* pdo) { test::call(test::callbacks().pdo_update, pdo); 
 #if USE_TIME
 void COTimeUpdate(CO_NODE* node, const CO_TIME_OF_DAY* time) { test::call(test::callbacks().time_update, node, time); }
 #endif
+#if USE_GFC
+void COGfcReceived(CO_NODE* node) { test::call(test::callbacks().gfc_received, node); }
+#endif
 #if USE_LED
 void COLedChange(CO_NODE* node, std::uint8_t leds) { test::call(test::callbacks().led_change, node, leds); }
 #endif

@@ -38,6 +38,11 @@
 #else
 #define CO_NEEDS_USE_EMCY CO_LEFT_OUT("USE_EMCY 1")
 #endif
+#if USE_GFC
+#define CO_NEEDS_USE_GFC
+#else
+#define CO_NEEDS_USE_GFC CO_LEFT_OUT("USE_GFC 1")
+#endif
 #if USE_LED
 #define CO_NEEDS_USE_LED
 #else
