@@ -5,6 +5,7 @@
 #include "co_core.h"
 #include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
+#include "wire/bytes.hpp"
 #include "wire/cob_id.hpp"
 
 namespace co::dict {
@@ -83,6 +84,15 @@ Initialised init_objects(CO_DICT& dict, CO_NODE& node) {
     }
   }
   return result;
+}
+
+uint32_t read_number(CO_NODE_T& node, uint32_t key, uint32_t width, uint32_t otherwise) {
+  uint32_t number = 0;
+  const uint32_t above = wire::host_is_little_endian ? 0 : sizeof number - width;
+  CO_OBJ* const obj = find(node.Dict, key);
+  const bool known =
+      obj != nullptr && obj::read(*obj, node, reinterpret_cast<uint8_t*>(&number) + above, width) == CO_ERR_NONE;
+  return known ? number : otherwise;
 }
 
 CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value) {

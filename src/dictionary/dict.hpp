@@ -74,6 +74,8 @@ inline constexpr CO_OBJ_INIT_FUNC checked_by = USE_DICT_CHECK != 0 ? init<rule> 
   return USE_DICT_CHECK != 0 || number < count;
 }
 
+// Returns the number in an entry; otherwise if there is no entry, or one with another width. width: bytes, up to 4
+[[nodiscard]] uint32_t read_number(CO_NODE_T& node, uint32_t key, uint32_t width, uint32_t otherwise);
 [[nodiscard]] CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value);
 // Returns the COB-ID of an object; if the object cannot be read, the COB-ID given as otherwise. Returns
 // wire::cob_invalid if that COB-ID cannot be used (wire::is_usable()).

@@ -270,15 +270,6 @@ CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Dir
 
 }  // namespace
 
-uint32_t read_number(CO_NODE& node, uint32_t key, uint32_t width, uint32_t otherwise) {
-  uint32_t number = 0;
-  const uint32_t above = wire::host_is_little_endian ? 0 : sizeof number - width;
-  CO_OBJ* const obj = dict::find(node.Dict, key);
-  const bool known =
-      obj != nullptr && obj::read(*obj, node, reinterpret_cast<uint8_t*>(&number) + above, width) == CO_ERR_NONE;
-  return known ? number : otherwise;
-}
-
 CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy author) {
   if (is_static_type(mapping)) {
     return is_skipped(direction, mapping) ? CO_ERR_NONE : CO_ERR_OBJ_MAP_TYPE;

@@ -3,10 +3,15 @@
 #pragma once
 
 #include "co_core.h"
+#include "dictionary/dict.hpp"
+#include "dictionary/lock.hpp"
 #include "dictionary/types/place.hpp"
 #include "wire/bytes.hpp"
 
 namespace co::pdo {
+
+using dict::Lock;
+using dict::read_number;
 
 enum class Direction : uint8_t { receive, transmit };
 
@@ -36,9 +41,6 @@ constexpr Direction direction_of(unsigned index) {
   return (index & of_tpdo) != 0 ? Direction::transmit : Direction::receive;
 }
 
-// Returns the number in an entry; otherwise if there is no entry, or one with another width. width: bytes, up to 4
-[[nodiscard]] uint32_t read_number(CO_NODE& node, uint32_t key, uint32_t width, uint32_t otherwise);
-
 // Returns whether a mapping value is allowed. [301:7.4.7, 7.5.2.36]
 [[nodiscard]] CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy author);
 
@@ -50,26 +52,6 @@ struct Resolved {
 
 // Resolves num entries of the mapping at index (1600h…, 1A00h…). Sets map.Length only on success.
 [[nodiscard]] Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author);
-
-// Scope in which CO_NODE_EXT.OdLock is held. Scopes may nest.
-class Lock {
- public:
-  explicit Lock(CO_NODE& node) : node_(node) {
-    if (node.OdLocked++ == 0 && node.Ext->OdLock != nullptr) {
-      node.Ext->OdLock(node.Ext->User);
-    }
-  }
-  ~Lock() {
-    if (--node_.OdLocked == 0 && node_.Ext->OdUnlock != nullptr) {
-      node_.Ext->OdUnlock(node_.Ext->User);
-    }
-  }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-
- private:
-  CO_NODE& node_;
-};
 
 // Copying ------------------------------------------------------------------------------------------------------------
 
