@@ -101,6 +101,14 @@ std::string pdo(const CO_IF_FRM& frame, const Names& names, const Mappings& mapp
   return result;
 }
 
+// --- GFC and SRDO [EN 50325-5]
+
+/// Returns the name of an SRDO frame: COB-ID 1 is odd, COB-ID 2 is the next number. Default COB-IDs have a node-ID.
+std::string srdo(const CO_IF_FRM& frame) {
+  const bool plain = frame.Identifier % 2 != 0;
+  return text("SRDO %03Xh %s", frame.Identifier - (plain ? 0u : 1u), plain ? "plain" : "inverse");
+}
+
 bool is_pdo(const CO_IF_FRM& frame) {
   return function_code(frame) >= 0x180 >> 7 && function_code(frame) <= 0x500 >> 7 && node_id(frame) != 0;
 }
@@ -109,6 +117,12 @@ bool is_pdo(const CO_IF_FRM& frame) {
 
 std::optional<std::string> decode_network_service(const CO_IF_FRM& frame, const Names& names,
                                                   const Mappings& mappings) {
+  if (frame.Identifier == 0x001 && frame.DLC == 0) {
+    return "GFC, global fail-safe command";
+  }
+  if (frame.Identifier >= 0x101 && frame.Identifier <= 0x180) {
+    return srdo(frame);
+  }
   if (frame.Identifier == 0x080 && frame.DLC <= 1) {
     return sync(frame);
   }

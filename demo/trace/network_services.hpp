@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file network_services.hpp
-/// Decodes PDO, SYNC, TIME and EMCY messages of the pre-defined connection set. [301:7.3.3]
+/// Decodes PDO, SYNC, TIME and EMCY messages of the pre-defined connection set [301:7.3.3], GFC and SRDOs [EN 50325-5].
 #pragma once
 
 #include <optional>

@@ -124,6 +124,14 @@ TEST_CASE("trace: a PDO whose mapping is known shows its objects [301:7.2.2]") {
   CHECK(hears("205#0C") == "RPDO1");
 }
 
+TEST_CASE("trace decoder: GFC and SRDOs") {
+  CHECK(meaning("001#") == "GFC, global fail-safe command");
+  CHECK(meaning("101#112233") == "SRDO 101h plain");
+  CHECK(meaning("102#EEDDCC") == "SRDO 101h inverse");
+  CHECK(meaning("17F#11") == "SRDO 17Fh plain");
+  CHECK(meaning("180#EE") == "SRDO 17Fh inverse");
+}
+
 TEST_CASE("trace: SYNC, TIME and EMCY messages are shown [301:7.2.5, 7.2.6, 7.2.7]") {
   CHECK(meaning("080#") == "SYNC");
   CHECK(meaning("080#F0") == "SYNC, counter 240");
@@ -184,7 +192,7 @@ TEST_CASE("trace: LSS: the bits of a fastscan can be folded [305]") {
 
 TEST_CASE("trace: frames of no known service are shown as bytes") {
   CHECK(meaning("780#1122334455667788") == "unknown 780#1122334455667788");
-  CHECK(meaning("180#11") == "unknown 180#11");  // a PDO of node 0
+  CHECK(meaning("200#11") == "unknown 200#11");  // a PDO of node 0
   CHECK(meaning("500#11") == "unknown 500#11");
   CHECK(meaning("080#0102") == "unknown 080#0102");                      // SYNC has at most one byte
   CHECK(meaning("081#00000000000000") == "unknown 081#00000000000000");  // EMCY has eight bytes
