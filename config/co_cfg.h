@@ -204,6 +204,24 @@
 #define USE_GFC 0
 #endif
 
+/// Safety-relevant data objects, SRDOs (1301h…, co_srdo.h): 0…64. They cost 5.2 KB of flash (Cortex-M0+, -Os), and each
+/// costs 124 bytes of RAM (32-bit CPU).
+#ifndef CO_SRDO_N
+#define CO_SRDO_N 0
+#endif
+#if CO_SRDO_N < 0 || CO_SRDO_N > 64
+#error "CO_SRDO_N: 0...64 SRDOs"
+#endif
+
+/// Shortest time between the two frames of an SRDO that is sent, in µs, rounded up to ticks of the timer driver:
+/// 0…100000; 0: one after the other without delay. The refresh time of each SRDO must be longer. No cost.
+#ifndef CO_SRDO_GAP
+#define CO_SRDO_GAP 0
+#endif
+#if CO_SRDO_GAP < 0 || CO_SRDO_GAP > 100000
+#error "CO_SRDO_GAP: 0...100000 us"
+#endif
+
 /// EMCY producer, error register and history (1001h, 1003h, 1014h, 1015h): 0 or 1.
 #ifndef USE_EMCY
 #define USE_EMCY 1

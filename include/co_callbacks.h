@@ -16,6 +16,7 @@
 #include "co_nmt.h"
 #include "co_obj.h"
 #include "co_pdo.h"
+#include "co_srdo.h"
 #include "co_time_of_day.h"
 
 #ifdef __cplusplus
@@ -95,7 +96,8 @@ typedef struct CO_CALLBACKS_T {
   /// CONodeInit() and by NMT resets: in CO_INIT, before anything uses the values. No EMCY can be sent then;
   /// docs/storage.md shows how to send one.
   void (*ParaRecovered)(struct CO_NODE_T* node, void* user, const struct CO_PARA_T* group);
-  void (*GfcReceived)(struct CO_NODE_T* node, void* user);  ///< see COGfcReceived()
+  void (*GfcReceived)(struct CO_NODE_T* node, void* user);                                      ///< see COGfcReceived()
+  void (*SrdoChange)(struct CO_NODE_T* node, void* user, uint8_t number, CO_SRDO_STATE state);  ///< see COSrdoChange()
 #if USE_ACCESS_HOOK
   /// Called when a client initiates an SDO transfer: expedited, segmented or block, in either direction. 1010h and
   /// 1011h are objects like any other.

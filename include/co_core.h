@@ -43,6 +43,7 @@
 #include "co_pdo.h"
 #include "co_ring.h"
 #include "co_sdo.h"
+#include "co_srdo.h"
 #include "co_ssdo.h"
 #include "co_sync.h"
 #include "co_time.h"
@@ -230,6 +231,9 @@ typedef struct CO_NODE_T {
 #endif
   CO_IF_FRM TxFrame[CO_TX_QUEUE_N];  ///< memory of TxQueue, if CO_NODE_EXT.TxQueue is null
   uint32_t ErrorKey;                 ///< key of the object that Error is about
+#if CO_SRDO_N > 0
+  CO_SRDO Srdo[CO_SRDO_N];  ///< SRDOs, 1301h + index
+#endif
 } CO_NODE;
 
 /// Initialises a node and its drivers and puts the controller on the bus; no frame is sent. The node is then in

@@ -6,7 +6,7 @@
 /// Errors are those of the application (COEmcySet()) and those that the stack detects: lost frames (8110h), error
 /// passive (8120h), a missing node or NMT master (8130h), recovered from bus-off (8140h), own CAN-ID in use by another
 /// node (8150h), PDO too short (8210h) or too long (8220h), no object for an MPDO (8230h), SYNC with wrong length
-/// (8240h), PDO missing (8250h).
+/// (8240h), PDO missing (8250h); SRDOs (co_srdo.h): faulty configuration (6300h), any other fault (8200h).
 ///
 /// An error that occurs is entered in 1003h, sets its bit and the generic bit in 1001h, and is sent: error code, 1001h
 /// at that moment, five bytes. An error that is resolved is sent as code 0000h with the remaining bits of 1001h. Errors
@@ -14,8 +14,9 @@
 /// later.
 ///
 /// Errors of the stack have 0 in the first two of the five bytes, and a node-ID, the number of a PDO, or 0 in the
-/// third. 8110h and 8150h are resolved when they have not occurred again for one second, and are sent once in that
-/// time. At bus-off nothing can be sent: after recovery the node sends 8140h, and 0000h at once.
+/// third; those of SRDOs have an index in the third and fourth, and a sub-index or a state in the fifth. 8110h and
+/// 8150h are resolved when they have not occurred again for one second, and are sent once in that time. At bus-off
+/// nothing can be sent: after recovery the node sends 8140h, and 0000h at once.
 ///
 /// Inhibit time: 1015h (a plain CO_TUNSIGNED16, x 100 µs) is read at each message, so a new value applies from the next
 /// message on. Messages that wait for the inhibit time, or for the transmit queue, are stored in a queue of
@@ -126,8 +127,8 @@ typedef struct CO_EMCY_USR_T {
 #define CO_EMCY_STORAGE (1 + (CO_EMCY_N - 1) / 8)
 
 /// \cond internal
-#define CO_EMCY_FAULT_N (USE_MPDO ? 11 : 10)  // kinds of errors that the stack detects
-#define CO_EMCY_HOLD_N 2                      // kinds of these that may occur with every frame (8110h, 8150h)
+#define CO_EMCY_FAULT_N (10 + (USE_MPDO ? 1 : 0) + (CO_SRDO_N > 0 ? 2 : 0))  // kinds of errors that the stack detects
+#define CO_EMCY_HOLD_N 2  // kinds of these that may occur with every frame (8110h, 8150h)
 
 typedef struct CO_EMCY_HIST_T {  // ring of entries of 1003h
   uint8_t Found;                 // entries counted while their types are initialised

@@ -30,6 +30,9 @@
 #ifndef USE_TIME
 #define USE_TIME 1
 #endif
+#ifndef CO_SRDO_N
+#define CO_SRDO_N 4
+#endif
 #ifndef USE_GFC
 #define USE_GFC 1
 #endif

@@ -45,6 +45,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_para.h"
 #include "co_pdo_types.h"
 #include "co_sdo.h"
+#include "co_srdo.h"
 #include "co_string.h"
 #include "co_sync.h"
 #include "co_time.h"
@@ -194,6 +195,16 @@ inline constexpr Type types[] = {
 #endif
 #if USE_GFC
     {&COTGfc, rules::global_fail_safe, Value::unsigned_integer, 1},
+#endif
+#if CO_SRDO_N > 0
+    {&COTSrdoCom, rules::srdo_direction, Value::unsigned_integer, 1},
+    {&COTSrdoCom, rules::srdo_cycle, Value::unsigned_integer, 2},
+    {&COTSrdoCom, rules::srdo_byte, Value::unsigned_integer, 1},
+    {&COTSrdoCom, rules::srdo_cob_id, Value::unsigned_integer, 4},
+    {&COTSrdoMap, rules::srdo_number, Value::unsigned_integer, 1},
+    {&COTSrdoMap, rules::srdo_mapping, Value::unsigned_integer, 4},
+    {&COTSrdoValid, rules::srdo_valid, Value::unsigned_integer, 1},
+    {&COTSrdoSignature, rules::srdo_signature, Value::unsigned_integer, 2},
 #endif
 #if USE_TIME
     {&COTTimeId, rules::time_cob_id, Value::unsigned_integer, 4},
@@ -361,7 +372,8 @@ constexpr std::uintptr_t mapped_number(std::uint16_t index) {
 template <const auto& Od>
 constexpr std::size_t find_unmappable(std::size_t place) {
   const std::uint32_t key = Od[place].Key;
-  const bool is_mapping = rules::is_place(rules::pdo_mapping, key) && rules::has(key, CO_OBJ_D_____);
+  const bool is_place = rules::is_place(rules::pdo_mapping, key) || rules::is_place(rules::srdo_mapping, key);
+  const bool is_mapping = is_place && rules::has(key, CO_OBJ_D_____);
   if (!is_mapping || content<Od>(place) != Content::value) {
     return length(Od);
   }

@@ -46,18 +46,20 @@ struct Instances {
 inline constexpr Instances instances[] = {
     {0x1200, 0x127F, 3, CO_SSDO_N},                      // SDO servers [CiA 301, 7.5.2.33]
     {0x1280, 0x12FF, 3, USE_CSDO != 0 ? CO_CSDO_N : 0},  // SDO clients [CiA 301, 7.5.2.34]
+    {0x1301, 0x1340, 6, CO_SRDO_N},                      // SRDOs [EN 50325-5]
+    {0x1381, 0x13C0, 16, CO_SRDO_N},                     // their mapping [EN 50325-5]
     {0x1400, 0x15FF, 6, CO_RPDO_N},                      // RPDOs [CiA 301, 7.5.2.35]
     {0x1600, 0x17FF, 64, CO_RPDO_N},                     // their mapping [CiA 301, 7.5.2.36]
     {0x1800, 0x19FF, 6, CO_TPDO_N},                      // TPDOs [CiA 301, 7.5.2.37]
     {0x1A00, 0x1BFF, 64, CO_TPDO_N},                     // their mapping [CiA 301, 7.5.2.38]
 };
 
-/// Returns false for a key beyond the configured last sub-index of an array (1016h, 1028h).
+/// Returns false for a key beyond the configured last sub-index of an array (1016h, 1028h, 13FFh).
 constexpr bool is_in_array(std::uint32_t key) {
   constexpr struct {
     std::uint16_t index;
     std::uint8_t last_sub;
-  } arrays[] = {{0x1016, CO_HBCONS_N}, {0x1028, CO_EMCY_CONS_N}};
+  } arrays[] = {{0x1016, CO_HBCONS_N}, {0x1028, CO_EMCY_CONS_N}, {0x13FF, CO_SRDO_N}};
   for (const auto& array : arrays) {
     if (index_of(key) == array.index && sub_of(key) > array.last_sub) {
       return false;
@@ -153,6 +155,22 @@ inline constexpr Rule sdo_cob_id{0x1200, 0x12FF, 1, 2, 4, true, false};
 inline constexpr Rule time_cob_id{0x1012, 0x1012, 0, 0, 4, true, false};
 /// 1300h: global fail-safe command
 inline constexpr Rule global_fail_safe{0x1300, 0x1300, 0, 0, 1, false, false};
+/// 1301h…1340h, sub 1: direction of an SRDO
+inline constexpr Rule srdo_direction{0x1301, 0x1340, 1, 1, 1, false, false};
+/// 1301h…1340h, sub 2: refresh time or SCT
+inline constexpr Rule srdo_cycle{0x1301, 0x1340, 2, 2, 2, false, false};
+/// 1301h…1340h, sub 3 and 4: SRVT, and transmission type
+inline constexpr Rule srdo_byte{0x1301, 0x1340, 3, 4, 1, false, false};
+/// 1301h…1340h, sub 5 and 6: COB-IDs of an SRDO
+inline constexpr Rule srdo_cob_id{0x1301, 0x1340, 5, 6, 4, false, false};
+/// 1381h…13C0h, sub 0: number of mapped objects
+inline constexpr Rule srdo_number{0x1381, 0x13C0, 0, 0, 1, false, false};
+/// 1381h…13C0h, other sub-indices: a mapped object
+inline constexpr Rule srdo_mapping{0x1381, 0x13C0, 1, 16, 4, false, false};
+/// 13FEh: configuration valid, which the stack writes
+inline constexpr Rule srdo_valid{0x13FE, 0x13FE, 0, 0, 1, false, false};
+/// 13FFh: signature of an SRDO
+inline constexpr Rule srdo_signature{0x13FF, 0x13FF, 1, 64, 2, false, false};
 /// 1005h: COB-ID of SYNC
 inline constexpr Rule sync_cob_id{0x1005, 0x1005, 0, 0, 4, true, false};
 /// 1006h and 1007h: period of SYNC, and window of synchronous PDOs

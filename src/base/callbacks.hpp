@@ -104,6 +104,11 @@ inline void receive_gfc(CO_NODE& node) {
   return function != nullptr ? function(&node, node.Ext->User) : COGfcReceived(&node);
 }
 
+inline void change_srdo(CO_NODE& node, uint8_t number, CO_SRDO_STATE state) {
+  const auto function = find(node, &CO_CALLBACKS::SrdoChange);
+  return function != nullptr ? function(&node, node.Ext->User, number, state) : COSrdoChange(&node, number, state);
+}
+
 inline void change_leds(CO_NODE& node, uint8_t leds) {
   const auto function = find(node, &CO_CALLBACKS::LedChange);
   return function != nullptr ? function(&node, node.Ext->User, leds) : COLedChange(&node, leds);

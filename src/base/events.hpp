@@ -69,14 +69,18 @@ enum class Fault : uint8_t {
 #endif
   sync_length,  // 8240h
   pdo_timeout,  // 8250h
+#if CO_SRDO_N > 0
+  srdo_configuration,  // 6300h
+  srdo,                // 8200h
+#endif
   count
 };
 
 // Reports that a fault has occurred (raise()) or has ended (resolve()). Faults are counted: each raise() needs exactly
-// one resolve() or forget(). detail: third byte of the manufacturer-specific error field of the EMCY message, a node-ID
-// or the number of a PDO.
-void raise(CO_NODE& node, Fault fault, uint8_t detail);
-void resolve(CO_NODE& node, Fault fault, uint8_t detail);
+// one resolve() or forget(). detail: third to fifth byte of the manufacturer-specific error field of the EMCY message,
+// a node-ID, the number of a PDO, or an index and a byte.
+void raise(CO_NODE& node, Fault fault, uint32_t detail);
+void resolve(CO_NODE& node, Fault fault, uint32_t detail);
 // Like resolve(), without an EMCY message: the service has stopped to monitor the fault.
 void forget(CO_NODE& node, Fault fault);
 
@@ -100,6 +104,9 @@ void end_sync_window(CO_NODE& node);
 
 // Reports that the application or the network has changed an object whose TPDOs are event-driven (flag A).
 void change_object(CO_NODE& node, const CO_OBJ& obj);
+
+// Sends the TPDOs of objects that were changed while OdLock was held, once it is released.
+void send_changed(CO_NODE& node);
 
 // Sets the node-ID that the application has chosen.
 void change_node_id(CO_NODE& node, uint8_t id);

@@ -34,6 +34,9 @@ enum class Service : uint8_t {
 #if USE_GFC
   gfc,
 #endif
+#if CO_SRDO_N > 0
+  srdo,
+#endif
 #if CO_EMCY_CONS_N > 0
   emcy_consumer,
 #endif

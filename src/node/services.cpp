@@ -19,6 +19,7 @@
 #include "service/pdo/pdo.hpp"
 #include "service/sdo_client/sdo_client.hpp"
 #include "service/sdo_server/sdo_server.hpp"
+#include "service/srdo/srdo.hpp"
 #include "service/sync/sync.hpp"
 #include "service/time/time.hpp"
 #include "storage/para.hpp"
@@ -78,6 +79,9 @@ constexpr Service table[] = {
 #endif
 #if USE_GFC
     {Id::gfc, CO_PDO_ALLOWED, 0, gfc::init, gfc::on_frame, no_frames, nullptr, nullptr, nullptr},
+#endif
+#if CO_SRDO_N > 0
+    {Id::srdo, CO_PDO_ALLOWED, 0, srdo::init, srdo::on_frame, no_frames, srdo::on_mode, nullptr, nullptr},
 #endif
 #if CO_EMCY_CONS_N > 0
     {Id::emcy_consumer, CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, no_frames, nullptr, nullptr, nullptr},
@@ -179,7 +183,12 @@ void forget_application(CO_NODE& node) { emcy::forget_application(node); }
 
 void configure(CO_NODE& node) { run(node, &Service::configure); }
 
-void remap(CO_NODE& node) { pdo::remap(node); }
+void remap(CO_NODE& node) {
+  pdo::remap(node);
+#if CO_SRDO_N > 0
+  srdo::on_remap(node);
+#endif
+}
 
 // Continues the senders in round-robin order (index: CO_NODE.NextSender), each with as many frames as the controller
 // accepts. The sender that is refused first continues first the next time.
@@ -255,7 +264,7 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
 
 }  // namespace services
 
-void event::raise([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault, [[maybe_unused]] uint8_t detail) {
+void event::raise([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault, [[maybe_unused]] uint32_t detail) {
 #if USE_EMCY
   emcy::raise(node, fault, detail);
 #endif
@@ -264,7 +273,7 @@ void event::raise([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault, 
 #endif
 }
 
-void event::resolve([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault, [[maybe_unused]] uint8_t detail) {
+void event::resolve([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault, [[maybe_unused]] uint32_t detail) {
 #if USE_EMCY
   emcy::resolve(node, fault, detail);
 #endif
@@ -281,6 +290,8 @@ void event::forget([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault)
   led::resolve(node, fault);
 #endif
 }
+
+void event::send_changed(CO_NODE& node) { pdo::send_changed(node); }
 
 void event::lose_communication(CO_NODE& node) { nmt::lose_communication(node); }
 

@@ -14,9 +14,9 @@ constexpr CO_EMCY_MSG emcy_message(uint16_t code, const uint8_t* msef) {
   return {code | (uint32_t{msef[0]} << 24), get_u32(msef + 1)};
 }
 
-// Returns the message of a fault of the stack: an error code, and detail (a node-ID or the number of a PDO) as third
-// byte of the manufacturer-specific error field. The other bytes are 0: the first two are also in 1003h. [301:7.5.2.4]
-constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint8_t detail) { return {code, uint32_t{detail} << 8}; }
+// Returns the message of a fault of the stack: an error code, and detail (24 bits, see base/events.hpp) as third to
+// fifth byte of the manufacturer-specific error field. The first two, which are also in 1003h, are 0. [301:7.5.2.4]
+constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint32_t detail) { return {code, detail << 8}; }
 
 // Returns the message with the error register, byte 2 of the frame, behind the error code.
 constexpr CO_EMCY_MSG with_register(const CO_EMCY_MSG& msg, uint8_t reg) {
@@ -39,7 +39,8 @@ inline const uint8_t* emcy_bytes(const CO_IF_FRM& frame) { return frame.Data + 3
 inline constexpr uint8_t emcy_example[] = {0xAB, 1, 2, 3, 4};
 static_assert(with_register(emcy_message(0x8210, emcy_example), 0x11).Low == 0xAB118210);
 static_assert(with_register(emcy_message(0x8210, emcy_example), 0x11).High == 0x04030201);
-static_assert(with_register(emcy_message(0x8130, uint8_t{5}), 0x11).Low == 0x00118130);
-static_assert(with_register(emcy_message(0x8130, uint8_t{5}), 0x11).High == 0x00000500);
+static_assert(with_register(emcy_message(0x8130, uint32_t{5}), 0x11).Low == 0x00118130);
+static_assert(with_register(emcy_message(0x8130, uint32_t{5}), 0x11).High == 0x00000500);
+static_assert(emcy_message(0x8200, uint32_t{0x071301}).High == 0x07130100);
 
 }  // namespace co::wire

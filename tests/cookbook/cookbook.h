@@ -18,6 +18,8 @@ void the_master_writes_a_heartbeat_consumer(void);
 void a_missing_master_is_noticed(void);
 void the_master_makes_the_node_produce_sync(void);
 void a_time_message_sets_the_clock(void);
+void an_srdo_ends_the_safe_state_and_its_loss_begins_it(void);
+void a_gfc_begins_the_safe_state(void);
 void an_error_is_raised_and_cleared(void);
 void an_error_of_another_node_is_received(void);
 void the_master_switches_a_second_server_on(void);

@@ -15,6 +15,8 @@ int main(void) {
   RUN_TEST(a_missing_master_is_noticed);
   RUN_TEST(the_master_makes_the_node_produce_sync);
   RUN_TEST(a_time_message_sets_the_clock);
+  RUN_TEST(an_srdo_ends_the_safe_state_and_its_loss_begins_it);
+  RUN_TEST(a_gfc_begins_the_safe_state);
   RUN_TEST(an_error_is_raised_and_cleared);
   RUN_TEST(an_error_of_another_node_is_received);
   RUN_TEST(the_master_switches_a_second_server_on);

@@ -18,10 +18,12 @@ lane() {
   configuration segment-a-call "-O2 -DCO_SDO_BLOCK_PACE=1" slave
   configuration no-block "-O2 -DUSE_SDO_BLOCK=0" slave
   configuration small-client "-O2 -DUSE_CSDO_BLOCK=0 -DUSE_CSDO_OWN=0" slave
-  # Mapping of single bits, no remote requests (and no LSS in Operational), restricted CAN-IDs permitted, most PDOs.
+  # Mapping of single bits, no remote requests (and no LSS in Operational), restricted CAN-IDs permitted, a gap
+  # between the frames of an SRDO, most PDOs.
   configuration pdo-bits "-O2 -DUSE_PDO_BITS=1"
   configuration no-remote "-O2 -DUSE_PDO_RTR=0 -DCO_LSS_IN_OPERATIONAL=0"
   configuration restricted-ids "-O2 -DCO_RESTRICTED_IDS=1"
+  configuration srdo-gap "-O2 -DCO_SRDO_GAP=300"
   configuration pdo-512 "-O2 -DCO_RPDO_N=512 -DCO_TPDO_N=512" slave
 }
 

@@ -59,6 +59,13 @@ uint8_t module_lss[SIZE_OF(Lss)];
 #define LSS 0
 #endif
 
+#if CO_SRDO_N > 0
+uint8_t module_srdo[SIZE_OF(Srdo)];
+#define SRDO sizeof module_srdo
+#else
+#define SRDO 0
+#endif
+
 #if USE_PARA
 uint8_t module_storage[SIZE_OF(Verified) + SIZE_OF(ParaTmr)];
 #define PARA sizeof module_storage
@@ -85,7 +92,7 @@ uint8_t module_sdo_server[SIZE_OF(Sdo) + SIZE_OF(SdoTmr)];
 
 /* All that is nobody's. */
 uint8_t module_base[sizeof(CO_NODE) - sizeof module_nmt - sizeof module_sdo_server - sizeof module_pdo - SDO_CLIENT -
-                    EMCY - SYNC - TIME - LED - LSS - PARA - GUARDING - HEARTBEAT];
+                    EMCY - SYNC - TIME - LED - LSS - SRDO - PARA - GUARDING - HEARTBEAT];
 
 #else
 

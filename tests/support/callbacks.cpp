@@ -46,6 +46,11 @@ void COTimeUpdate(CO_NODE* node, const CO_TIME_OF_DAY* time) { test::call(test::
 #if USE_GFC
 void COGfcReceived(CO_NODE* node) { test::call(test::callbacks().gfc_received, node); }
 #endif
+#if CO_SRDO_N > 0
+void COSrdoChange(CO_NODE* node, std::uint8_t number, CO_SRDO_STATE state) {
+  test::call(test::callbacks().srdo_change, node, number, state);
+}
+#endif
 #if USE_LED
 void COLedChange(CO_NODE* node, std::uint8_t leds) { test::call(test::callbacks().led_change, node, leds); }
 #endif

@@ -25,6 +25,7 @@ struct Callbacks {
   std::function<void(CO_RPDO*)> pdo_update;
   std::function<void(CO_NODE*, const CO_TIME_OF_DAY*)> time_update;
   std::function<void(CO_NODE*)> gfc_received;
+  std::function<void(CO_NODE*, std::uint8_t, CO_SRDO_STATE)> srdo_change;
   std::function<void(CO_NODE*, std::uint8_t)> led_change;
   std::function<void(CO_NODE*, std::uint8_t, std::uint16_t, std::uint8_t, const std::uint8_t*)> emcy_received;
   std::function<CO_ERR(std::uint32_t*, std::uint8_t*)> lss_load;

@@ -103,6 +103,11 @@
 #else
 #define CO_NEEDS_CO_HBCONS_N CO_LEFT_OUT("CO_HBCONS_N above 0")
 #endif
+#if CO_SRDO_N > 0
+#define CO_NEEDS_CO_SRDO_N
+#else
+#define CO_NEEDS_CO_SRDO_N CO_LEFT_OUT("CO_SRDO_N above 0")
+#endif
 #if USE_LSS && USE_PARA
 #define CO_NEEDS_LSS_STORAGE
 #else

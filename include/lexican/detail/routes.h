@@ -9,11 +9,11 @@
 #include "co_types.h"
 
 /// \cond internal
-// Routes: NMT, error control, LSS, SDO, heartbeat and EMCY consumers, SYNC and TIME, PDOs, GFC.
+// Routes: NMT, error control, LSS, SDO, heartbeat and EMCY consumers, SYNC and TIME, PDOs, GFC, both frames of SRDOs.
 #define CO_ROUTE_N                                                                                           \
   (2 + (USE_LSS ? 1 : 0) + (USE_LSS_MASTER ? 1 : 0) + CO_SSDO_N + (USE_CSDO ? CO_CSDO_N : 0) + CO_HBCONS_N + \
    CO_EMCY_CONS_N + (USE_SYNC ? 1 : 0) + (USE_TIME ? 1 : 0) + CO_RPDO_N + (USE_PDO_RTR ? CO_TPDO_N : 0) +    \
-   (USE_GFC ? 1 : 0))
+   (USE_GFC ? 1 : 0) + 2 * CO_SRDO_N)
 #if CO_ROUTE_N > 255
 typedef uint16_t CO_ROUTE_NUM;
 #else

@@ -25,13 +25,17 @@ constexpr uint8_t generic = 1U << CO_EMCY_REG_GENERAL;
 constexpr uint8_t communication = generic | (1U << CO_EMCY_REG_COM);
 
 constexpr uint16_t codes[CO_EMCY_FAULT_N] = {
-    CO_EMCY_CODE_MON_COM_OVERRUN_ERR,   CO_EMCY_CODE_MON_COM_COLLISION_ERR,    CO_EMCY_CODE_MON_COM_PASSIVE_ERR,
-    CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR,    CO_EMCY_CODE_MON_COM_RECOVER_ERR,
+    CO_EMCY_CODE_MON_COM_OVERRUN_ERR,   CO_EMCY_CODE_MON_COM_COLLISION_ERR,
+    CO_EMCY_CODE_MON_COM_PASSIVE_ERR,   CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR,
+    CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_EMCY_CODE_MON_COM_RECOVER_ERR,
     CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR,  CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR,
 #if USE_MPDO
     CO_EMCY_CODE_MON_PROT_DAM_ERR,
 #endif
     CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR, CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR,
+#if CO_SRDO_N > 0
+    CO_EMCY_CODE_SW_DATASET_ERR,        CO_EMCY_CODE_MON_PROT_ERR,
+#endif
 };
 static_assert(static_cast<uint8_t>(Fault::count) == CO_EMCY_FAULT_N);
 
@@ -188,11 +192,11 @@ void post(CO_NODE& node, CO_EMCY_MSG msg) {
   }
 }
 
-void report_gone(CO_NODE& node, uint8_t detail) { post(node, wire::emcy_message(CO_EMCY_CODE_NO_ERR, detail)); }
+void report_gone(CO_NODE& node, uint32_t detail) { post(node, wire::emcy_message(CO_EMCY_CODE_NO_ERR, detail)); }
 
 // Adds a fault to the history and sends its message. The first two bytes of the manufacturer-specific error field are 0
-// in both, detail is the third. [E11]
-void report_fault(CO_NODE& node, Fault fault, uint8_t detail) {
+// in both, detail is in the others. [E11]
+void report_fault(CO_NODE& node, Fault fault, uint32_t detail) {
   const uint16_t code = code_of(fault);
   add_to_history(node, code);
   post(node, wire::emcy_message(code, detail));
@@ -281,7 +285,7 @@ void on_mode(CO_NODE& node) {
 }
 
 // Counts the faults up to passive once, however often they occur: they describe a state, and one event ends them.
-void raise(CO_NODE& node, Fault fault, uint8_t detail) {
+void raise(CO_NODE& node, Fault fault, uint32_t detail) {
   const auto kind = static_cast<uint8_t>(fault);
   uint16_t& number = number_of(node, fault);
   if (kind < CO_EMCY_HOLD_N) {
@@ -297,7 +301,7 @@ void raise(CO_NODE& node, Fault fault, uint8_t detail) {
   }
 }
 
-void resolve(CO_NODE& node, Fault fault, uint8_t detail) {
+void resolve(CO_NODE& node, Fault fault, uint32_t detail) {
   if (number_of(node, fault) != 0) {
     --number_of(node, fault);
     report_gone(node, detail);

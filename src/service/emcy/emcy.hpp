@@ -13,8 +13,8 @@ void init(CO_NODE& node);
 void on_mode(CO_NODE& node);
 
 // Implement the functions of base/events.hpp.
-void raise(CO_NODE& node, event::Fault fault, uint8_t detail);
-void resolve(CO_NODE& node, event::Fault fault, uint8_t detail);
+void raise(CO_NODE& node, event::Fault fault, uint32_t detail);
+void resolve(CO_NODE& node, event::Fault fault, uint32_t detail);
 void forget(CO_NODE& node, event::Fault fault);
 void report_can(CO_NODE& node, CO_CAN_EVENT what);
 

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Safety-relevant data objects. [EN 50325-5]
+#pragma once
+
+#include "co_core.h"
+
+#if CO_SRDO_N > 0
+
+namespace co::srdo {
+
+// Sets the states of all SRDOs. No SRDO runs until Operational is entered.
+void init(CO_NODE& node);
+
+// Checks and starts the SRDOs when Operational is entered, and stops them when it is left.
+void on_mode(CO_NODE& node);
+
+// Processes a frame. number: twice the number of the SRDO, plus 1 for the inverse frame
+[[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+
+// Ends the running SRDOs with CO_SRDO_ERR_INTERNAL after CODictInit() has replaced the dictionary, which was checked.
+void on_remap(CO_NODE& node);
+
+}  // namespace co::srdo
+
+#endif
