@@ -154,7 +154,6 @@ typedef struct CO_NODE_T {
   uint8_t Burst;          ///< segments of block transfers sent in this call
   uint8_t NextSender;     ///< round-robin index: the block transfer that sends its next segment first
   uint8_t OdLocked;       ///< CO_NODE_EXT.OdLock is held
-  uint8_t ObjectChanged;  ///< an object was changed while OdLock was held: its TPDOs are sent when the lock is released
   uint8_t IsTransmitOff;  ///< transmission is disabled while the bit rate is switched
   uint8_t WindowOver;     ///< the synchronous window has elapsed
 #if USE_PARA
@@ -163,10 +162,12 @@ typedef struct CO_NODE_T {
 #if USE_REAL_TIME
   uint8_t IsNodeLocked;  ///< the node lock is held (CO_NODE_EXT.Enter)
 #endif
+  uint16_t TPdoMarkedEnd;  ///< number behind the last TPDO that is marked for transmission; 0: none is
   CO_NMT Nmt;              ///< NMT slave, handle for co_nmt.h
   uint16_t RPdoFirst;      ///< head of the list of RPDOs that wait for the SYNC, linked by CO_RPDO.Next
   uint16_t RPdoLast;       ///< tail of that list, if it is not empty
   uint16_t TPdoFirst;      ///< head of the list of synchronous TPDOs, linked by CO_TPDO.Next
+  uint16_t TPdoMarked;     ///< number of the first TPDO that is marked for transmission
   const CO_NODE_EXT* Ext;  ///< settings of CONodeInitEx(), or defaults; not null
   CO_TX_QUEUE TxQueue;     ///< transmit queue
   CO_IF If;                ///< drivers, handle for co_if.h

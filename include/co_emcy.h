@@ -23,8 +23,12 @@
 /// CO_EMCY_QUEUE_N messages. If it is full, a new message replaces the newest one in it, which is counted as dropped:
 /// the first messages are kept, and the last message always reports the present state.
 ///
-/// 1001h is written when it changes, by the Write function of its entry: its variable must be in RAM. An entry that
-/// holds the value itself (flag D) is not written, because its table may be in read-only memory.
+/// Messages are sent where the API call that has caused them ends, before event-driven TPDOs. COEmcySet(), COEmcyClr()
+/// and COEmcyReset() send them at once.
+///
+/// 1001h is written when it changes, before the message is sent, by the Write function of its entry: its variable must
+/// be in RAM. An entry that holds the value itself (flag D) is not written, because its table may be in read-only
+/// memory.
 ///
 /// Resets: "reset node" resolves all errors and empties 1003h. "Reset communication" resolves the errors of the stack;
 /// 1003h and the errors of the application remain, because the application continues to run. No EMCY is sent for
@@ -149,7 +153,8 @@ typedef struct CO_EMCY_T {
   const CO_EMCY_TBL* Root;             ///< CO_NODE_SPEC.EmcyCode
   uint8_t Waiting;                     ///< messages in the queue, oldest first
   CO_EMCY_HIST Hist;                   ///< 1003h
-  uint8_t Register;                    ///< value of 1001h
+  uint8_t Register;                    ///< error register
+  uint8_t RegisterChanged;             ///< the error register was not written to 1001h yet
   uint8_t Err[CO_EMCY_STORAGE];        ///< errors of the application: bit 0 of byte 0 is identifier 0
   uint16_t Fault[CO_EMCY_FAULT_N];     ///< number of unresolved occurrences of each error of the stack
   CO_TMR_MEM Tmr;                      ///< inhibit time

@@ -35,24 +35,31 @@ class Serving {
 };
 
 // Deferred work (bits of CO_NODE.Pending). It runs at the end of the API function that has caused it; if that was
-// called while a frame is processed, after the frame was answered.
+// called while a frame is processed, after the frame was answered. Order: configuration, EMCY messages, TPDOs, resets.
 enum Pending : uint8_t {
   reset_node = 0x01,
   reset_communication = 0x02,
   commanded = 0x04,  // the reset was commanded by the NMT master
   configure_sdo = 0x08,
-  remap = 0x10,    // CODictInit() has renumbered the entries
-  overrun = 0x20,  // CONodeRealTime() has lost frames
+  remap = 0x10,       // CODictInit() has renumbered the entries
+  overrun = 0x20,     // CONodeRealTime() has lost frames
+  send_emcy = 0x40,   // EMCY messages are queued, or the error register has changed
+  send_tpdos = 0x80,  // event-driven TPDOs are marked; not while OdLock is held
 };
 // Adds deferred work. what: bits of Pending
 inline void defer(CO_NODE& node, uint8_t what) { node.Pending = static_cast<uint8_t>(node.Pending | what); }
+// Removes deferred work that is about to run.
+inline void remove(CO_NODE& node, unsigned what) { node.Pending = static_cast<uint8_t>(node.Pending & ~what); }
 
+inline constexpr uint8_t configuration = configure_sdo | remap;
 // Resets that are requested while the node is being initialised or started are dropped (forget_resets()): the
 // initialisation in progress includes them.
 inline constexpr uint8_t resets = reset_node | reset_communication | commanded;
+// Work that the thread which has requested it runs, also a real-time thread.
+inline constexpr uint8_t messages = send_emcy | send_tpdos;
 // Work that is deferred until CONodeProcess() where there is a real-time thread (CO_NODE_EXT.Mainline).
 inline constexpr uint8_t of_mainline = resets | overrun;
-inline void forget_resets(CO_NODE& node) { node.Pending &= static_cast<uint8_t>(~resets); }
+inline void forget_resets(CO_NODE& node) { remove(node, resets); }
 
 // Communication faults, each with an EMCY error code and bits of the error register. [301:7.2.7]
 enum class Fault : uint8_t {
@@ -102,7 +109,8 @@ void sync(CO_NODE& node, uint8_t counter);
 // [301:7.5.2.7]
 void end_sync_window(CO_NODE& node);
 
-// Reports that the application or the network has changed an object whose TPDOs are event-driven (flag A).
+// Reports that the application or the network has changed an object whose TPDOs are event-driven (flag A): marks the
+// TPDOs, which run_deferred() sends.
 void change_object(CO_NODE& node, const CO_OBJ& obj);
 
 // Sends the TPDOs of objects that were changed while OdLock was held, once it is released.
@@ -129,6 +137,9 @@ inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const 
 // cause deferred work ends with run_deferred(), and so does each timer action. Where there is a real-time thread, the
 // work of the mainline (of_mainline) is left to CONodeProcess(), whichever thread has requested it.
 void run_all_deferred(CO_NODE& node);
+// Sends the deferred messages, also while a frame is being processed: before the NMT state is changed, and in
+// CONodeRealTime() after each frame and each timer action.
+void send_deferred(CO_NODE& node);
 [[gnu::always_inline]] inline void run_deferred(CO_NODE& node) {
   if (node.Pending != 0) {
     run_all_deferred(node);

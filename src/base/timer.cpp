@@ -431,6 +431,7 @@ void run_real_time(CO_TMR& timers) {
   Span span = {};
   for (bool more = find_span(timers, Share::real_time, span); more;) {
     more = run_one(timers, Share::real_time, span);
+    event::send_deferred(*timers.Node);
   }
 }
 #endif

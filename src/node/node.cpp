@@ -12,6 +12,7 @@
 #include "hal/port.hpp"
 #include "node/services.hpp"
 #include "service/nmt/nmt.hpp"
+#include "service/pdo/pdo.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 #include "wire/nmt.hpp"
@@ -114,15 +115,27 @@ void reconfigure(CO_NODE& node, bool entries_have_moved) {
   routes::publish(node);
 }
 
-// Runs the deferred work whose bits are set in what.
-void run_pending(CO_NODE& node, uint8_t what) {
-  while ((node.Pending & what) != 0 && (node.State & (event::serving | event::changing)) == 0) {
-    const auto pending = static_cast<uint8_t>(node.Pending & what);
-    node.Pending = static_cast<uint8_t>(node.Pending & ~what);
-    if ((pending & event::resets) != 0) {
-      run_reset(node, pending);
-    } else if (node.Nmt.Mode != CO_INVALID) {
+// Returns the deferred work that may run now, of that in what: TPDOs are not sent while OdLock is held.
+inline unsigned runnable(const CO_NODE& node, unsigned what) {
+  const unsigned held = node.OdLocked != 0 ? event::send_tpdos : 0;
+  return node.Pending & what & ~held;
+}
+
+// Runs the deferred work whose bits are set in what, and the work that it causes. TPDOs are sent after a configuration,
+// by which the mapped objects may have moved.
+void run_pending(CO_NODE& node, unsigned what) {
+  while ((node.State & (event::serving | event::changing)) == 0) {
+    const unsigned pending = runnable(node, what);
+    if (pending == 0) {
+      return;
+    }
+    event::remove(node, pending & ~unsigned{event::messages});
+    if ((pending & event::configuration) != 0 && (pending & event::resets) == 0 && node.Nmt.Mode != CO_INVALID) {
       reconfigure(node, (pending & event::remap) != 0);
+    }
+    event::send_deferred(node);
+    if ((pending & event::resets) != 0) {
+      run_reset(node, static_cast<uint8_t>(pending));
     }
   }
 }
@@ -210,7 +223,7 @@ void run_deferred_of_mainline(CO_NODE& node) {
   if ((pending & event::overrun) != 0 && node.Nmt.Mode != CO_INVALID) {
     report(node, CO_CAN_OVERRUN);
   }
-  run_pending(node, static_cast<uint8_t>(~event::overrun));
+  run_pending(node, ~unsigned{event::overrun});
 }
 #else
 void run_deferred_of_mainline(CO_NODE& node) { event::run_deferred(node); }
@@ -356,7 +369,16 @@ bool is_awaited([[maybe_unused]] const CO_NODE& node) {
 namespace co {
 
 void event::run_all_deferred(CO_NODE& node) {
-  node::run_pending(node, static_cast<uint8_t>(port::has_mainline(node) ? ~of_mainline : UINT8_MAX));
+  node::run_pending(node, port::has_mainline(node) ? ~unsigned{of_mainline} : ~0U);
+}
+
+void event::send_deferred(CO_NODE& node) {
+  if ((node.Pending & send_emcy) != 0) {
+    services::send_emcy(node);
+  }
+  if (node::runnable(node, send_tpdos) != 0) {
+    (void)pdo::send_marked(node);
+  }
 }
 
 }  // namespace co
@@ -466,7 +488,7 @@ void COTmrProcess(CO_TMR* tmr) {
 }
 
 #if USE_REAL_TIME
-// Keeps the node serving throughout, so that deferred work is left to the mainline.
+// Keeps the node serving throughout, so that deferred work is left to the mainline, except messages.
 void CONodeRealTime(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
   const port::NodeLock turn(*node);
@@ -484,6 +506,7 @@ void CONodeRealTime(CO_NODE* node) {
   while ((node->State & event::running) != 0 && receive::read(*node, frame) > 0) {
     count(node->Count.Received);
     node::share_out(*node, frame);
+    event::send_deferred(*node);
   }
   tmr::run_real_time(node->Tmr);
 }

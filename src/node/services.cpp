@@ -179,6 +179,7 @@ void save_changes(CO_NODE& node) { para::save_changes(node); }
 
 #if USE_EMCY
 void forget_application(CO_NODE& node) { emcy::forget_application(node); }
+void send_emcy(CO_NODE& node) { emcy::send_queued(node); }
 #endif
 
 void configure(CO_NODE& node) { run(node, &Service::configure); }
@@ -362,7 +363,8 @@ void enter(CO_NODE& node, CO_MODE mode) {
 }  // namespace
 
 // Calls CONmtModeChange(), which may request another state and so call this function again: the outermost call enters
-// the state that was requested last. A CONodeStop() cannot be revoked, and only CONodeInit() ends CO_INVALID.
+// the state that was requested last. A CONodeStop() cannot be revoked, and only CONodeInit() ends CO_INVALID. Deferred
+// messages are sent before, because the next state may not permit them.
 void event::change_mode(CO_NODE& node, CO_MODE mode) {
   CO_NMT& nmt = node.Nmt;
   if (nmt.Mode == CO_INVALID && mode > CO_INIT) {
@@ -376,6 +378,7 @@ void event::change_mode(CO_NODE& node, CO_MODE mode) {
   node.State |= changing;
   while (nmt.Mode != nmt.Next) {
     const CO_MODE next = nmt.Next;
+    send_deferred(node);
     callback::change_mode(node, next);
     if (nmt.Next == next) {
       enter(node, next);

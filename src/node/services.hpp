@@ -52,6 +52,13 @@ inline void load(CO_NODE&, CO_NMT_RESET) {}
 inline void save_changes(CO_NODE&) {}
 #endif
 
+// Sends the EMCY messages that are queued.
+#if USE_EMCY
+void send_emcy(CO_NODE& node);
+#else
+inline void send_emcy(CO_NODE&) {}
+#endif
+
 // Clears the EMCY errors that the application has set: the application starts anew.
 #if USE_EMCY
 void forget_application(CO_NODE& node);

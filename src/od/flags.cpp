@@ -137,7 +137,7 @@ void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) {
   od::mirror(*entry, subIndex, false);
   od::clear_sent(node, pdo::number_of(node, *obj));
   const uint32_t key = obj->Key;
-  error::report(node, pdo::change_object(node, *obj), key);
+  error::report(node, pdo::request_object(node, *obj), key);
   event::run_deferred(node);
 }
 

@@ -3,7 +3,6 @@
 // (CO_NODE_EXT.OdLock).
 #include "base/events.hpp"
 #include "hal/port.hpp"
-#include "service/pdo/pdo.hpp"
 
 #if USE_OD
 
@@ -31,7 +30,6 @@ void unlock_objects(CO_NODE& node) {
   if (node.Ext->OdUnlock != nullptr) {
     node.Ext->OdUnlock(node.Ext->User);
   }
-  pdo::send_changed(node);
   event::run_deferred(node);
 }
 

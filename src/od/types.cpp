@@ -80,7 +80,6 @@ void report_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_orig
   if (complete && !by_original && CO_IS_ASYNC(obj.Key) != 0) {
     event::change_object(node, obj);
   }
-  pdo::send_changed(node);
 }
 
 }  // namespace co::od

@@ -57,12 +57,12 @@ TEST_CASE("EMCY: faults of 512 PDOs at once are all sent") {
 TEST_CASE("EMCY: a fault that was not raised is not resolved, and a discarded fault is not sent") {
   EmcyNode node{Setup()};
   node.resolve_fault(Fault::pdo_short, 1);
-  node.call([&] { co::event::forget(node.node, Fault::pdo_short); });
+  node.forget_fault(Fault::pdo_short);
   node.silent();
   CHECK(node.error_register() == 0);
   node.raise_fault(Fault::pdo_short, 1);
   node.tx("081#1082110000010000");
-  node.call([&] { co::event::forget(node.node, Fault::pdo_short); });
+  node.forget_fault(Fault::pdo_short);
   node.silent();
   CHECK(node.error_register() == 0);
 }

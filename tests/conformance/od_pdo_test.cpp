@@ -187,13 +187,13 @@ TEST_CASE("OD PDO: flag A: a write through the extension sends the TPDO; the ori
   extension.put_at(node, 0x3007);
   node.start();
   node.rx("601#2307300001020304");
-  node.tx({"181#01020304", "581#6007300000000000"});
+  node.tx({"581#6007300000000000", "181#01020304"});
   node.call([&] { CHECK(CODictWrLong(&node->Dict, CO_DEV(0x3007, 0), 5) == CO_ERR_NONE); });
   node.tx("181#05000000");
   OD_extension_t original{nullptr, OD_readOriginal, OD_writeOriginal, {}};
   node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3007), &original) == ODR_OK); });
   node.rx("601#2307300009000000");
-  node.tx({"181#09000000", "581#6007300000000000"});
+  node.tx({"581#6007300000000000", "181#09000000"});
   node.ask("601#2307300009000000", "581#6007300000000000");
   extension.put_at(node, 0x3007);
   extension.answer = ODR_HW;
@@ -227,7 +227,7 @@ TEST_CASE("OD PDO: flag A: an extension that calls the original function sends t
     node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3007), &checking.extension) == ODR_OK); });
     node.start();
     node.rx("601#2307300001020304");
-    node.tx({"181#01020304", "581#6007300000000000"});
+    node.tx({"581#6007300000000000", "181#01020304"});
     node.ask("601#2307300001020304", "581#6007300000000000");
     node.call([&] { CHECK(CODictWrLong(&node->Dict, CO_DEV(0x3007, 0), 5) == CO_ERR_NONE); });
     node.tx("181#05000000");
@@ -263,7 +263,7 @@ TEST_CASE("OD PDO: flag A: the TPDO is sent after the write function, with the v
   node.rx("601#2307300001020304");
   CHECK(inside);
   CHECK(shown == 0x04030201);
-  node.tx({"181#77777777", "581#6007300000000000"});
+  node.tx({"581#6007300000000000", "181#77777777"});
 }
 
 TEST_CASE("OD PDO: flag A: a change by the original function is sent although the extension then refuses the write") {
@@ -274,7 +274,7 @@ TEST_CASE("OD PDO: flag A: a change by the original function is sent although th
   node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3007), &checking.extension) == ODR_OK); });
   node.start();
   node.rx("601#2307300001020304");
-  node.tx({"181#01020304", "581#8007300000000606"});
+  node.tx({"581#8007300000000606", "181#01020304"});
   node.ask("601#2307300001020304", "581#8007300000000606");
 }
 
@@ -286,7 +286,7 @@ TEST_CASE("OD PDO: flag A: each accepted write is a change if the extension stor
   node.start();
   for (unsigned n = 0; n < 2; ++n) {
     node.rx("601#2307300001020304");
-    node.tx({"181#01020304", "581#6007300000000000"});
+    node.tx({"581#6007300000000000", "181#01020304"});
   }
   node.rx("201#01020304");
   node.tx("181#01020304");
@@ -305,7 +305,7 @@ TEST_CASE("OD PDO: flag A: an extension that writes another object triggers the 
   extension.put_at(node, 0x3007);
   node.start();
   node.rx("601#2307300009000000");
-  node.tx({"281#01020304", "181#09000000", "581#6007300000000000"});
+  node.tx({"581#6007300000000000", "181#09000000", "281#01020304"});
 }
 
 TEST_CASE("OD PDO: synchronous PDOs sample and apply through the extension [301:7.2.2.3]") {

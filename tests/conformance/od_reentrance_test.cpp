@@ -399,11 +399,11 @@ TEST_CASE("OD re-entrance: a TPDO may read the stream within End of its download
   node.frames_per_call(3);
   node.start();
   node.rx("601#2300300001020304");
-  node.tx({"181#01020304", "581#6000300000000000"});
+  node.tx({"581#6000300000000000", "181#01020304"});
   node.ask("601#2100300004000000", "581#6000300000000000");
   extension.take_log();
   node.rx("601#0705060708000000");
-  node.tx({"181#05060708", "581#2000000000000000"});
+  node.tx({"581#2000000000000000", "181#05060708"});
   CHECK(extension.take_log() == Log{"write 4 at 0 of 4", "read 4 at 0 of 4"});
 }
 

@@ -156,7 +156,7 @@ TEST_CASE("PDO lock: a TPDO that an RPDO causes (flag A) locks after the objects
   node.start();
   Diary diary(node);
   node.rx("201#4243");
-  CHECK(Diary::take() == Entries{"receive", "lock", "unlock", "lock", "unlock", "transmit", "update"});
+  CHECK(Diary::take() == Entries{"receive", "lock", "unlock", "update", "lock", "unlock", "transmit"});
   node.tx("181#4243");
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("SYNC consumer: a length that differs from 1019h is reported with 8240
     SyncNode node(with_counter());
     node.start();
     node.rx(CO_IF_FRM{0x80, {5}, dlc});
-    CHECK(node.frames() == joined(reports({emcy(0x8240)}), {"181#11", "281#21"}));
+    CHECK(node.frames() == joined({"181#11", "281#21"}, reports({emcy(0x8240)})));
     CHECK(node.counters().Malformed == 1);
   }
 }
@@ -100,7 +100,7 @@ TEST_CASE("SYNC consumer: with a counter a SYNC of another length sends only PDO
     if (dlc == 1) {
       CHECK(sent == std::vector<std::string>{"181#11", "281#21"});
     } else {
-      CHECK(sent == joined(reports({emcy(0x8240)}), {"181#11"}));
+      CHECK(sent == joined({"181#11"}, reports({emcy(0x8240)})));
     }
   }
 }

@@ -40,10 +40,13 @@ class EmcyNode : private EmcyObjects, public Fixture {
   }
   // Not named raise(), because CHECK() of doctest calls raise() on CPUs without a debugger instruction.
   void raise_fault(co::event::Fault fault, std::uint8_t detail = 0, Where at = {__builtin_FILE(), __builtin_LINE()}) {
-    call([&] { co::event::raise(node, fault, detail); }, at);
+    complete([&] { co::event::raise(node, fault, detail); }, at);
   }
   void resolve_fault(co::event::Fault fault, std::uint8_t detail = 0, Where at = {__builtin_FILE(), __builtin_LINE()}) {
-    call([&] { co::event::resolve(node, fault, detail); }, at);
+    complete([&] { co::event::resolve(node, fault, detail); }, at);
+  }
+  void forget_fault(co::event::Fault fault, Where at = {__builtin_FILE(), __builtin_LINE()}) {
+    complete([&] { co::event::forget(node, fault); }, at);
   }
   void can_event(CO_CAN_EVENT event, Where at = {__builtin_FILE(), __builtin_LINE()}) {
     call([&] { CONodeCanEvent(&node, event); }, at);
@@ -65,6 +68,12 @@ class EmcyNode : private EmcyObjects, public Fixture {
   }
 
  private:
+  /// Calls a function of the stack, then runs the deferred work, like an API function.
+  template <typename Function>
+  void complete(const Function& function, Where at) {
+    call([&] { function(), co::event::run_deferred(node); }, at);
+  }
+
   static Setup complete(Setup setup, std::uint16_t inhibit, EmcyObjects& objects) {
     setup.with({CO_KEY(0x1003, 0, CO_OBJ_____RW), CO_TEMCY_HIST, &objects.unused_number});
     for (std::uint8_t sub = 1; sub <= std::size(objects.history); ++sub) {

@@ -103,23 +103,25 @@ uint8_t register_of(const CO_EMCY& emcy) {
   return static_cast<uint8_t>(faults != 0 ? bits | communication : bits);
 }
 
-// Stores the error register and writes 1001h. An entry with flag D is not written, because it may be in read-only
-// memory.
-void show_register(CO_NODE& node, uint8_t bits) {
-  node.Emcy.Register = bits;
-  CO_OBJ* const obj = dict::find(node.Dict, key_register);
-  if (obj == nullptr || CO_IS_DIRECT(obj->Key) != 0) {
-    return;
-  }
-  error::report(node, obj::write(*obj, node, &bits, sizeof bits), key_register);
-}
-
+// Updates the error register. If it has changed, send_queued() writes it to 1001h.
 uint8_t update_register(CO_NODE& node) {
   const uint8_t bits = register_of(node.Emcy);
   if (bits != node.Emcy.Register) {
-    show_register(node, bits);
+    node.Emcy.Register = bits;
+    node.Emcy.RegisterChanged = 1;
+    event::defer(node, event::send_emcy);
   }
   return bits;
+}
+
+// Writes the error register to 1001h. An entry with flag D is not written, because it may be in read-only memory.
+void write_register(CO_NODE& node) {
+  node.Emcy.RegisterChanged = 0;
+  CO_OBJ* const obj = dict::find(node.Dict, key_register);
+  if (obj != nullptr && CO_IS_DIRECT(obj->Key) == 0) {
+    uint8_t bits = node.Emcy.Register;
+    error::report(node, obj::write(*obj, node, &bits, sizeof bits), key_register);
+  }
 }
 
 // Messages ------------------------------------------------------------------------------------------------------------
@@ -173,23 +175,46 @@ void resume_sending(void* node_pointer) {
   }
 }
 
-// Updates the error register and sends a message with it. In a full queue the message replaces the newest one, so that
-// the last message always reports the present state.
+// Sends the queued messages, unless the inhibit time is running. Messages that were queued while there is no identifier
+// are forgotten, not dropped.
+void send_if_permitted(CO_NODE& node) {
+  if (node.Emcy.Waiting == 0 || tmr::is_running(node.Emcy.Tmr)) {
+    return;
+  }
+  const uint32_t id = identifier(node);
+  if (id == wire::no_frame) {
+    node.Emcy.Waiting = 0;
+  } else {
+    send_waiting(node, id);
+  }
+}
+
+// Updates the error register and queues a message with it, which send_queued() sends. In a full queue the message
+// replaces the newest one, so that the last message always reports the present state.
 void post(CO_NODE& node, CO_EMCY_MSG msg) {
   msg = wire::with_register(msg, update_register(node));
-  const uint32_t id = identifier(node);
-  if (id == wire::no_frame || !event::is_allowed(node, CO_EMCY_ALLOWED)) {
+  const bool is_inhibited = tmr::is_running(node.Emcy.Tmr);
+  if (!event::is_allowed(node, CO_EMCY_ALLOWED) || (is_inhibited && identifier(node) == wire::no_frame)) {
     return;
   }
   CO_EMCY& emcy = node.Emcy;
+  if (emcy.Waiting == CO_EMCY_QUEUE_N) {
+    send_if_permitted(node);
+  }
   if (emcy.Waiting == CO_EMCY_QUEUE_N) {
     count(node.Count.Dropped);
     --emcy.Waiting;
   }
   emcy.Queue[emcy.Waiting++] = msg;
-  if (!tmr::is_running(emcy.Tmr)) {
-    send_waiting(node, id);
+  event::defer(node, event::send_emcy);
+}
+
+// Ends an API function: sends its messages, also in a callback, before the TPDOs that the application requests then.
+void finish_call(CO_NODE& node) {
+  if ((node.Pending & event::send_emcy) != 0) {
+    send_queued(node);
   }
+  event::run_deferred(node);
 }
 
 void report_gone(CO_NODE& node, uint32_t detail) { post(node, wire::emcy_message(CO_EMCY_CODE_NO_ERR, detail)); }
@@ -337,6 +362,14 @@ void forget_application(CO_NODE& node) {
   clear_history(node);
 }
 
+void send_queued(CO_NODE& node) {
+  event::remove(node, event::send_emcy);
+  if (node.Emcy.RegisterChanged != 0) {
+    write_register(node);
+  }
+  send_if_permitted(node);
+}
+
 uint32_t identifier(CO_NODE& node) {
   const uint32_t cob_id = dict::read_cob_id(node.Dict, key_cob_id, wire::cob_invalid);
   return cob_id != wire::cob_invalid ? wire::frame_id(cob_id) : wire::no_frame;
@@ -361,8 +394,8 @@ void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) {
   if (emcy::change(*emcy, err, true)) {
     emcy::report_error(*emcy->Node, emcy->Root[err].Code, usr != nullptr ? *usr : emcy::nothing_added);
     emcy::show_bits(*emcy->Node);
-    event::run_deferred(*emcy->Node);
   }
+  emcy::finish_call(*emcy->Node);
 }
 
 void COEmcyClr(CO_EMCY* emcy, uint8_t err) {
@@ -371,8 +404,8 @@ void COEmcyClr(CO_EMCY* emcy, uint8_t err) {
   if (emcy::change(*emcy, err, false)) {
     emcy::report_gone(*emcy->Node, 0);
     emcy::show_bits(*emcy->Node);
-    event::run_deferred(*emcy->Node);
   }
+  emcy::finish_call(*emcy->Node);
 }
 
 int16_t COEmcyGet(CO_EMCY* emcy, uint8_t err) {
@@ -409,8 +442,8 @@ void COEmcyReset(CO_EMCY* emcy, uint8_t silent) {
   emcy::update_register(*emcy->Node);
   if (changed) {
     emcy::show_bits(*emcy->Node);
-    event::run_deferred(*emcy->Node);
   }
+  emcy::finish_call(*emcy->Node);
 }
 
 void COEmcyHistReset(CO_EMCY* emcy) {

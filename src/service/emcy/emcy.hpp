@@ -27,6 +27,9 @@ void forget_application(CO_NODE& node);
 // Triggers the TPDOs that map error status bits. Weak: null unless a dictionary has an object of CO_TEMCY_BITS, whose
 // file defines the function.
 [[gnu::weak]] void report_bits(CO_NODE& node);
+// Writes the error register to 1001h, and sends the queued messages unless the inhibit time is running: part of the
+// deferred work.
+void send_queued(CO_NODE& node);
 
 // Returns the identifier of EMCY messages; wire::no_frame: no messages are sent.
 [[nodiscard]] uint32_t identifier(CO_NODE& node);

@@ -247,7 +247,9 @@ const CO_OBJ_TYPE COTNmtHbCons = {heartbeat::size, heartbeat::init, heartbeat::r
 CO_ERR CONmtHbConsActivate(CO_HBCONS* hbc, uint16_t time, uint8_t nodeid) {
   ASSERT_PTR_ERR(hbc, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(hbc->Node, CO_ERR_BAD_ARG);
-  return heartbeat::change(*hbc->Node, *hbc, time, nodeid);
+  const CO_ERR err = heartbeat::change(*hbc->Node, *hbc, time, nodeid);
+  event::run_deferred(*hbc->Node);
+  return err;
 }
 
 int16_t CONmtGetHbEvents(CO_NMT* nmt, uint8_t nodeId) {

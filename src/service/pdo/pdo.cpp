@@ -2,6 +2,7 @@
 #include "service/pdo/pdo.hpp"
 
 #include "base/error.hpp"
+#include "base/events.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"
 
@@ -24,8 +25,9 @@ void sample(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
 void end_window(CO_NODE& node) { node.WindowOver = 1; }
 void flush(CO_NODE&) {}
 CO_ERR change_object(CO_NODE&, const CO_OBJ&) { return CO_ERR_TPDO_OBJ_TRIGGER; }
-void send_all_changed(CO_NODE&) {}
+CO_ERR send_marked(CO_NODE&) { return CO_ERR_NONE; }
 CO_ERR request(CO_NODE&, uint16_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
+CO_ERR request_object(CO_NODE&, const CO_OBJ&) { return CO_ERR_TPDO_OBJ_TRIGGER; }
 #if USE_MPDO
 CO_ERR send_to(CO_NODE&, uint16_t, uint8_t, uint32_t, uint32_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
 #endif
@@ -66,7 +68,8 @@ void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj) {
   CO_NODE& node = *tpdo->Node;
   const bool is_known = is_entry(node, obj);
   const uint32_t key = is_known ? obj->Key : 0;
-  error::report(node, is_known ? pdo::change_object(node, *obj) : CO_ERR_TPDO_OBJ_TRIGGER, key);
+  error::report(node, is_known ? pdo::request_object(node, *obj) : CO_ERR_TPDO_OBJ_TRIGGER, key);
+  event::run_deferred(node);
 }
 
 CO_ERR COTPdoRequest(CO_NODE* node, uint16_t num) {
@@ -76,7 +79,9 @@ CO_ERR COTPdoRequest(CO_NODE* node, uint16_t num) {
     mpdo::mark_all(node->TPdo[num]);
   }
 #endif
-  return is_pdo(num, CO_TPDO_N) ? pdo::request(*node, num) : CO_ERR_TPDO_NUM_TRIGGER;
+  const CO_ERR err = is_pdo(num, CO_TPDO_N) ? pdo::request(*node, num) : CO_ERR_TPDO_NUM_TRIGGER;
+  event::run_deferred(*node);
+  return err;
 }
 
 #if USE_MPDO
@@ -86,7 +91,9 @@ CO_ERR COTPdoSendTo(CO_NODE* node, uint16_t num, uint8_t node_id, uint32_t key, 
   if (node_id > last_node_id) {
     return CO_ERR_BAD_ARG;
   }
-  return is_pdo(num, CO_TPDO_N) ? pdo::send_to(*node, num, node_id, key, value) : CO_ERR_TPDO_NUM_TRIGGER;
+  const CO_ERR err = is_pdo(num, CO_TPDO_N) ? pdo::send_to(*node, num, node_id, key, value) : CO_ERR_TPDO_NUM_TRIGGER;
+  event::run_deferred(*node);
+  return err;
 }
 #endif
 

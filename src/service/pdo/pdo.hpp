@@ -39,22 +39,20 @@ void end_window(CO_NODE& node);
 // Withdraws synchronous TPDOs when the controller is not on the bus.
 void flush(CO_NODE& node);
 
-// Triggers the TPDOs that map the object; deferred while OdLock is held. Returns the error of a TPDO that is not sent;
-// CO_ERR_TPDO_OBJ_TRIGGER: no TPDO maps the object.
+// Marks the TPDOs that map the object. Returns the error of a TPDO that cannot be sent; CO_ERR_TPDO_OBJ_TRIGGER: no
+// TPDO maps the object.
 CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj);
-// Triggers the TPDOs that change_object() has deferred, once OdLock is released. No effect while it is held.
-void send_all_changed(CO_NODE& node);
-inline void send_changed(CO_NODE& node) {
-  if (node.ObjectChanged != 0) {
-    send_all_changed(node);
-  }
-}
+// Sends the marked TPDOs: part of the deferred work. Requests of callbacks and type functions are deferred. Returns the
+// last error. The caller ensures that a TPDO is marked and OdLock is not held.
+CO_ERR send_marked(CO_NODE& node);
 
 // Resolves all mappings again after CODictInit() has renumbered the entries.
 void remap(CO_NODE& node);
 
-// Implement the functions of co_pdo.h for numbers and objects that exist.
+// Implement the functions of co_pdo.h for numbers and objects that exist. Requests send the TPDOs, or mark them while
+// OdLock is held.
 [[nodiscard]] CO_ERR request(CO_NODE& node, uint16_t number);
+[[nodiscard]] CO_ERR request_object(CO_NODE& node, const CO_OBJ& obj);
 [[nodiscard]] bool was_received(CO_NODE& node, uint16_t number);
 [[nodiscard]] bool was_received(CO_NODE& node, const CO_OBJ& obj);
 [[nodiscard]] bool was_sent(CO_NODE& node, uint16_t number);

@@ -196,7 +196,6 @@ bool is_switching([[maybe_unused]] const CO_NODE& node) {
   } else if (!find_and_write(pdo, copy)) {
     return true;
   }
-  send_changed(node);
   callback::update_pdo(node, pdo);
   return true;
 }
@@ -264,7 +263,6 @@ void apply(CO_NODE& node) {
       link = pdo.Next;
     }
   }
-  send_changed(node);
   call_sync_callbacks(node, first);
 }
 

@@ -8,6 +8,7 @@
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "service/pdo/pdo.hpp"
@@ -28,7 +29,7 @@ enum Flag : uint8_t {
   starts = 0x04,     // the PDO has a SYNC start value
   waiting = 0x08,    // Count holds the SYNC start value, which was not reached yet; else Count is the number of SYNCs
   remote = 0x10,     // remote requests are allowed
-  touched = 0x20,    // an object was changed while OdLock was held
+  marked = 0x20,     // send_marked() triggers the PDO
 };
 
 static_assert(offsetof(CO_TPDO, Own) % sizeof(Word) == 0);
@@ -176,7 +177,7 @@ CO_ERR send_event(CO_TPDO& pdo, bool by_timer) {
   set(pdo.Map, served | inhibited);
   const CO_ERR err = serve(pdo, Use::send);
   if (has(pdo.Map, served)) {
-    clear(pdo.Map, served | inhibited | pending | touched);
+    clear(pdo.Map, served | inhibited | pending | marked);
     if (mpdo::is_sam(pdo.Map) && mpdo::is_waiting(*pdo.Node)) {
       set(pdo.Map, pending);
     }
@@ -211,35 +212,60 @@ void on_time(void* pdo_pointer) {
     mpdo::mark_all(pdo);
     (void)send_event(pdo, true);
   }
-  send_changed(*pdo.Node);
 }
 
-// Sends the PDO, or defers the event while the inhibit time is running. [301:7.2.2.6]
-CO_ERR send_or_defer(CO_TPDO& pdo) {
-  if (!has(pdo.Map, inhibited)) {
-    return send_event(pdo, false);
+// Marks a PDO for send_marked(). The numbers of the marked PDOs are in the range TPdoMarked…TPdoMarkedEnd - 1, so that
+// one marked PDO is found without a search. TPdoMarkedEnd 0: none is marked.
+void mark(CO_TPDO& pdo) {
+  CO_NODE& node = *pdo.Node;
+  const uint16_t number = number_of(pdo);
+  set(pdo.Map, marked);
+  if (node.TPdoMarkedEnd == 0 || number < node.TPdoMarked) {
+    node.TPdoMarked = number;
   }
-  set(pdo.Map, pending);
-  return CO_ERR_NONE;
+  if (number >= node.TPdoMarkedEnd) {
+    node.TPdoMarkedEnd = static_cast<uint16_t>(number + 1);
+  }
+  event::defer(node, event::send_tpdos);
 }
 
-// Triggers a PDO by an event of the application: an event-driven PDO is sent, an acyclic one is sent at the next SYNC.
-// Others are not triggered by events, and destination address mode is sent by COTPdoSendTo() only.
-CO_ERR trigger(CO_TPDO& pdo) {
+// Returns why an event of the application cannot trigger a PDO. Destination address mode is sent by COTPdoSendTo()
+// only.
+CO_ERR check_event(const CO_TPDO& pdo) {
   if (!is_operational(*pdo.Node)) {
     return CO_ERR_NMT_MODE;
   }
   if (!exists(pdo.Map)) {
     return CO_ERR_TPDO_COM_OBJ;
   }
-  if (is_event_driven(pdo.Type) && !mpdo::is_dam(pdo.Map)) {
-    return send_or_defer(pdo);
-  }
-  if (!is_acyclic(pdo.Type)) {
-    return CO_ERR_TPDO_EVENT;
+  const bool is_triggered = is_acyclic(pdo.Type) || (is_event_driven(pdo.Type) && !mpdo::is_dam(pdo.Map));
+  return is_triggered ? CO_ERR_NONE : CO_ERR_TPDO_EVENT;
+}
+
+// Returns whether the PDO has to be sent because of an event. Otherwise the event is pending: an event-driven PDO is
+// sent when the inhibit time has elapsed, an acyclic one at the next SYNC. [301:7.2.2.6]
+bool is_sent_at_once(CO_TPDO& pdo) {
+  if (is_event_driven(pdo.Type) && !has(pdo.Map, inhibited)) {
+    return true;
   }
   set(pdo.Map, pending);
-  return CO_ERR_NONE;
+  return false;
+}
+
+// Triggers a PDO by an event of the application: sends it or leaves the event pending.
+CO_ERR trigger(CO_TPDO& pdo) {
+  const CO_ERR err = check_event(pdo);
+  return err == CO_ERR_NONE && is_sent_at_once(pdo) ? send_event(pdo, false) : err;
+}
+
+// Like trigger(), but marks the PDO instead of sending it; while OdLock is held, in any case.
+CO_ERR trigger_later(CO_TPDO& pdo) {
+  const bool is_locked = pdo.Node->OdLocked != 0;
+  const CO_ERR err = is_locked ? CO_ERR_NONE : check_event(pdo);
+  if (is_locked || (err == CO_ERR_NONE && is_sent_at_once(pdo))) {
+    mark(pdo);
+  }
+  return err;
 }
 
 bool has_counter([[maybe_unused]] const CO_NODE& node) {
@@ -286,7 +312,7 @@ void process_sync(CO_TPDO& pdo, uint8_t counter) {
   }
   set(pdo.Map, served);
   const CO_ERR err = serve(pdo, is_due ? Use::send : Use::sample);
-  clear(pdo.Map, served | touched);
+  clear(pdo.Map, served | marked);
   if (is_due && err != CO_ERR_NONE && pdo.Type == type_acyclic) {
     set(pdo.Map, pending);
   }
@@ -297,18 +323,20 @@ bool maps_or_marks(CO_TPDO& pdo, uint16_t entry) {
   return mpdo::is_sam(pdo.Map) ? mpdo::mark(*pdo.Node, entry) : maps(pdo.Map, entry);
 }
 
-// Defers an event until OdLock is released.
-CO_ERR defer_until_unlock(CO_TPDO& pdo) {
-  set(pdo.Map, touched);
-  pdo.Node->ObjectChanged = 1;
-  return CO_ERR_NONE;
-}
-
-void trigger_touched(CO_TPDO& pdo) {
-  if (has(pdo.Map, touched)) {
-    clear(pdo.Map, touched);
-    (void)trigger(pdo);
-  }
+// Triggers the marked PDOs. Those that are marked meanwhile are left to the next round. Returns the last error.
+CO_ERR trigger_marked(CO_NODE& node) {
+  CO_TPDO* pdo = &node.TPdo[node.TPdoMarked];
+  const CO_TPDO* const end = &node.TPdo[node.TPdoMarkedEnd];
+  CO_ERR last = CO_ERR_NONE;
+  node.TPdoMarkedEnd = 0;
+  do {
+    if (has(pdo->Map, marked)) {
+      clear(pdo->Map, marked);
+      const CO_ERR err = trigger(*pdo);
+      last = err != CO_ERR_NONE ? err : last;
+    }
+  } while (++pdo != end);
+  return last;
 }
 
 // Finds the link to a PDO in the list of synchronous TPDOs, which is ordered by number.
@@ -345,7 +373,7 @@ void begin(CO_TPDO& pdo) {
   if (is_event_driven(pdo.Type)) {
     if (CO_TPDO_ON_START != 0) {
       mpdo::mark_all(pdo);
-      (void)trigger(pdo);
+      (void)trigger_later(pdo);
     } else if (pdo.Own.Time.Event != 0) {
       start(pdo, pdo.Own.Time.Event);
     }
@@ -409,7 +437,6 @@ void on_mode_tpdos(CO_NODE& node) {
   for (CO_TPDO& pdo : node.TPdo) {
     operational ? begin(pdo) : end_tpdo(node, pdo);
   }
-  send_changed(node);
 }
 
 // Answers a remote request. [301:7.2.2.5.3]
@@ -419,13 +446,14 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
     return false;
   }
   if (is_event_driven(pdo.Type)) {
-    (void)send_or_defer(pdo);
+    if (is_sent_at_once(pdo)) {
+      (void)send_event(pdo, false);
+    }
   } else if (pdo.Type == type_rtr || has(pdo.Map, sampled)) {
     set(pdo.Map, served);
     (void)serve(pdo, pdo.Type == type_rtr ? Use::send : Use::send_sampled);
-    clear(pdo.Map, served | touched);
+    clear(pdo.Map, served | marked);
   }
-  send_changed(node);
   return true;
 }
 
@@ -434,7 +462,6 @@ void sample(CO_NODE& node, uint8_t counter) {
   for (uint16_t link = node.TPdoFirst; link != none && is_operational(node); link = at(node, link).Next) {
     process_sync(at(node, link), counter);
   }
-  send_changed(node);
 }
 
 void end_window(CO_NODE& node) {
@@ -453,30 +480,36 @@ CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
   CO_ERR all = CO_ERR_TPDO_OBJ_TRIGGER;
   for (CO_TPDO& pdo : node.TPdo) {
     if (maps_or_marks(pdo, entry)) {
-      const CO_ERR err = node.OdLocked == 0 ? trigger(pdo) : defer_until_unlock(pdo);
+      const CO_ERR err = trigger_later(pdo);
       all = err != CO_ERR_NONE || all == CO_ERR_TPDO_OBJ_TRIGGER ? err : all;
     }
   }
-  send_changed(node);
   return all;
 }
 
-// Sends the TPDOs of touched objects. Changes by their Read functions are sent in a second round; changes in that round
-// wait for the next event.
-void send_all_changed(CO_NODE& node) {
-  constexpr unsigned rounds = 2;
-  for (unsigned round = 0; round < rounds && node.ObjectChanged != 0 && node.OdLocked == 0; ++round) {
-    node.ObjectChanged = 0;
-    for (CO_TPDO& pdo : node.TPdo) {
-      trigger_touched(pdo);
-    }
+// Changes by Read functions and callbacks of the PDOs are sent in a second round; changes in that round wait for the
+// next event.
+CO_ERR send_marked(CO_NODE& node) {
+  CO_ASSERT(node.OdLocked == 0 && node.TPdoMarked < node.TPdoMarkedEnd && node.TPdoMarkedEnd <= CO_TPDO_N);
+  const event::Serving serving(node);
+  event::remove(node, event::send_tpdos);
+  const CO_ERR err = trigger_marked(node);
+  if (node.TPdoMarkedEnd != 0) {
+    (void)trigger_marked(node);
+    event::remove(node, event::send_tpdos);
   }
+  return err;
 }
 
 CO_ERR request(CO_NODE& node, uint16_t number) {
-  const CO_ERR err = trigger(node.TPdo[number]);
-  send_changed(node);
-  return err;
+  return node.OdLocked == 0 ? trigger(node.TPdo[number]) : trigger_later(node.TPdo[number]);
+}
+
+CO_ERR request_object(CO_NODE& node, const CO_OBJ& obj) {
+  const CO_ERR err = change_object(node, obj);
+  const bool is_sent = node.OdLocked == 0 && (node.Pending & event::send_tpdos) != 0;
+  const CO_ERR sent = is_sent ? send_marked(node) : CO_ERR_NONE;
+  return err != CO_ERR_NONE ? err : sent;
 }
 
 bool was_sent(CO_NODE& node, uint16_t number) { return take_transferred(node.TPdo[number].Map); }
@@ -516,7 +549,6 @@ bool on_free(CO_NODE& node, uint16_t) {
   CO_TPDO* const pdo = mpdo::producer(node);
   if (pdo != nullptr && is_operational(node) && !has(pdo->Map, inhibited) && mpdo::is_waiting(node)) {
     (void)send_event(*pdo, false);
-    send_changed(node);
   }
   return false;
 }
