@@ -40,7 +40,6 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #if USE_OD
 #include "co_od.h"
 #endif
-#include "co_number.h"
 #include "co_os.h"
 #include "co_para.h"
 #include "co_pdo_types.h"

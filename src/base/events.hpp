@@ -113,9 +113,6 @@ void end_sync_window(CO_NODE& node);
 // TPDOs, which run_deferred() sends.
 void change_object(CO_NODE& node, const CO_OBJ& obj);
 
-// Sends the TPDOs of objects that were changed while OdLock was held, once it is released.
-void send_changed(CO_NODE& node);
-
 // Sets the node-ID that the application has chosen.
 void change_node_id(CO_NODE& node, uint8_t id);
 

@@ -292,8 +292,6 @@ void event::forget([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault)
 #endif
 }
 
-void event::send_changed(CO_NODE& node) { pdo::send_changed(node); }
-
 void event::lose_communication(CO_NODE& node) { nmt::lose_communication(node); }
 
 CO_MODE event::mode_for_switch(CO_NODE& node) { return nmt::mode_for_switch(node); }

@@ -134,7 +134,6 @@ void produce(CO_SRDO& srdo) {
   uint8_t inverse[sizeof srdo.Data] = {};
   set(srdo, served);
   const CO_ERR err = read_objects(node, srdo, plain.Data, inverse);
-  event::send_changed(node);
   if (!has(srdo, served)) {
     return;
   }
@@ -235,7 +234,6 @@ void consume(CO_SRDO& srdo, const CO_IF_FRM& frame) {
   expect(srdo, srdo.Cycle);
   set(srdo, served);
   const CO_ERR err = write_objects(node, srdo, srdo.Data, inverse.Data);
-  event::send_changed(node);
   if (!has(srdo, served)) {
     return;
   }
