@@ -342,6 +342,24 @@ TEST_CASE("SRDO consumer: an object with flag A triggers its TPDO after the pair
   node.tx("181#42BD");
 }
 
+#if USE_CALLBACKS
+TEST_CASE("SRDO consumer: the function of the callback table replaces the C function [Q9] [SR7]") {
+  static std::vector<SrdoNode::Change> calls;
+  calls.clear();
+  CO_CALLBACKS table{};
+  table.SrdoChange = [](CO_NODE_T* of, void* user, std::uint8_t number, CO_SRDO_STATE state) {
+    const OutsideStack outside;
+    CHECK(user == CONodeGetUser(of));
+    calls.emplace_back(number, state);
+  };
+  SrdoNode node(receiver(), [&](Setup& setup) { setup.callbacks(table); });
+  node.start();
+  send_pair(node, 1);
+  CHECK(calls == std::vector<SrdoNode::Change>{{0, CO_SRDO_INITIALISING}, {0, CO_SRDO_ESTABLISHED}});
+  CHECK(node.changes.empty());
+}
+#endif
+
 }  // namespace
 
 #endif

@@ -4,7 +4,7 @@
 #include "support/network.hpp"
 #include "support/srdo_fixture.hpp"
 
-#if CO_SRDO_N > 1
+#if CO_SRDO_N > 1 && CO_SRDO_GAP == 0
 
 namespace {
 
