@@ -234,13 +234,14 @@ TEST_CASE("error status bits: an error of the stack sends the TPDO when it begin
   MappedBits device(1, 1);
   PdoNode& node = *device.node;
   using co::event::Fault;
-  node.call([&] { co::event::raise(node.node, Fault::heartbeat, 5); });
+  const auto complete = [&](auto function) { node.call([&] { function(), co::event::run_deferred(node.node); }); };
+  complete([&] { co::event::raise(node.node, Fault::heartbeat, 5); });
   node.tx({"081#3081110000050000", "181#000800"});
-  node.call([&] { co::event::raise(node.node, Fault::heartbeat, 6); });
+  complete([&] { co::event::raise(node.node, Fault::heartbeat, 6); });
   node.tx("081#3081110000060000");
-  node.call([&] { co::event::resolve(node.node, Fault::heartbeat, 6); });
+  complete([&] { co::event::resolve(node.node, Fault::heartbeat, 6); });
   node.tx("081#0000110000060000");
-  node.call([&] { co::event::forget(node.node, Fault::heartbeat); });
+  complete([&] { co::event::forget(node.node, Fault::heartbeat); });
   node.tx("181#000000");
 }
 

@@ -410,7 +410,12 @@ bool COSrdoIsEstablished(const CO_NODE* node) {
 
 CO_ERR COSrdoRequest(CO_NODE* node, uint8_t number) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  return number < CO_SRDO_N ? srdo::request(node->Srdo[number]) : CO_ERR_BAD_ARG;
+  if (number >= CO_SRDO_N) {
+    return CO_ERR_BAD_ARG;
+  }
+  const CO_ERR err = srdo::request(node->Srdo[number]);
+  event::run_deferred(*node);
+  return err;
 }
 
 CO_ERR COSrdoSignature(CO_NODE* node, uint8_t number, uint16_t* signature) {
