@@ -21,7 +21,8 @@
 /// Inhibit time: 1015h (a plain CO_TUNSIGNED16, x 100 µs) is read at each message, so a new value applies from the next
 /// message on. Messages that wait for the inhibit time, or for the transmit queue, are stored in a queue of
 /// CO_EMCY_QUEUE_N messages. If it is full, a new message replaces the newest one in it, which is counted as dropped:
-/// the first messages are kept, and the last message always reports the present state.
+/// the first messages are kept, and the last message always reports the present state. USE_EMCY_QUEUE 0 omits queue and
+/// inhibit time.
 ///
 /// Messages are sent where the API call that has caused them ends, before event-driven TPDOs. COEmcySet(), COEmcyClr()
 /// and COEmcyReset() send them at once.
@@ -149,17 +150,19 @@ typedef struct CO_EMCY_MSG_T {  // bytes of a message, the first one lowest
 
 /// Emergencies of a node: &node.Emcy. The application must not access the members.
 typedef struct CO_EMCY_T {
-  struct CO_NODE_T* Node;              ///< owner
-  const CO_EMCY_TBL* Root;             ///< CO_NODE_SPEC.EmcyCode
-  uint8_t Waiting;                     ///< messages in the queue, oldest first
-  CO_EMCY_HIST Hist;                   ///< 1003h
-  uint8_t Register;                    ///< error register
-  uint8_t RegisterChanged;             ///< the error register was not written to 1001h yet
-  uint8_t Err[CO_EMCY_STORAGE];        ///< errors of the application: bit 0 of byte 0 is identifier 0
-  uint16_t Fault[CO_EMCY_FAULT_N];     ///< number of unresolved occurrences of each error of the stack
+  struct CO_NODE_T* Node;           ///< owner
+  const CO_EMCY_TBL* Root;          ///< CO_NODE_SPEC.EmcyCode
+  uint8_t Waiting;                  ///< messages in the queue, oldest first
+  CO_EMCY_HIST Hist;                ///< 1003h
+  uint8_t Register;                 ///< error register
+  uint8_t RegisterChanged;          ///< the error register was not written to 1001h yet
+  uint8_t Err[CO_EMCY_STORAGE];     ///< errors of the application: bit 0 of byte 0 is identifier 0
+  uint16_t Fault[CO_EMCY_FAULT_N];  ///< number of unresolved occurrences of each error of the stack
+  CO_TMR_MEM Hold[CO_EMCY_HOLD_N];  ///< times until 8110h and 8150h are resolved
+#if USE_EMCY_QUEUE
   CO_TMR_MEM Tmr;                      ///< inhibit time
-  CO_TMR_MEM Hold[CO_EMCY_HOLD_N];     ///< times until 8110h and 8150h are resolved
   CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];  ///< messages that wait for the inhibit time or the transmit queue
+#endif
 } CO_EMCY;
 
 /// Sets error \a err (index in CO_NODE_SPEC.EmcyCode) of the application. \a usr: manufacturer-specific data, or null:

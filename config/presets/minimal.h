@@ -45,6 +45,9 @@
 #ifndef USE_PARA
 #define USE_PARA 0
 #endif
+#ifndef USE_EMCY_QUEUE
+#define USE_EMCY_QUEUE 0
+#endif
 #ifndef CO_EMCY_N
 #define CO_EMCY_N 8
 #endif

@@ -76,6 +76,8 @@ TEST_CASE("Deferred work: what a callback has caused is sent before the NMT stat
   node.tx({"081#0040090000000000", "181#09"});
 }
 
+#if USE_EMCY_QUEUE
+
 TEST_CASE("Deferred work: more errors than the queue of EMCY messages has places are all sent in one call") {
   const unsigned errors = 3 * CO_EMCY_QUEUE_N < CO_EMCY_N ? 3 * CO_EMCY_QUEUE_N : CO_EMCY_N;
   EmcyNode node(Setup().emergencies(std::vector<CO_EMCY_TBL>(CO_EMCY_N, {CO_EMCY_REG_TEMP, 0x4200})));
@@ -88,6 +90,8 @@ TEST_CASE("Deferred work: more errors than the queue of EMCY messages has places
   CHECK(node.frames().size() == errors);
   CHECK(node.counters().Dropped == 0);
 }
+
+#endif
 
 // A table in which an RPDO writes four objects with flag A, each of which another TPDO maps, in the reverse order.
 PdoTable reversed() {

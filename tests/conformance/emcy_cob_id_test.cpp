@@ -104,6 +104,8 @@ TEST_CASE("1014h: stored relative to the node-ID without its flags; another node
   node.tx("085#0010010000000000");
 }
 
+#if USE_EMCY_QUEUE
+
 TEST_CASE("1014h: messages queued for the inhibit time are dropped when it is switched off [E5]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 1000);
   node.set(current);
@@ -146,6 +148,8 @@ TEST_CASE("1014h: an entry of a basic type that is switched off drops queued mes
   node.silent();
   CHECK(node.counters().Dropped == 1);
 }
+
+#endif
 
 TEST_CASE("1014h: a wrong length is refused") {
   EmcyNode node;

@@ -211,6 +211,8 @@ TEST_CASE("EMCY: errors detected during bus-off are sent after it in their order
   node.tx({"081#0040190000000000", "081#4081190000000000", "081#0000090000000000"});
 }
 
+#if USE_EMCY_QUEUE
+
 TEST_CASE("EMCY: 8140h and 0000h keep the inhibit time [E6]") {
   EmcyNode node(Setup(), 500);
   node.can_event(CO_CAN_BUS_OFF);
@@ -219,6 +221,8 @@ TEST_CASE("EMCY: 8140h and 0000h keep the inhibit time [E6]") {
   node.after(1s);
   node.tx_at(50ms, "081#0000000000000000");
 }
+
+#endif
 
 TEST_CASE("EMCY: controller states before the start and after the stop of the node have no effect") {
   EmcyNode node(Setup().stay_in_init());

@@ -84,6 +84,8 @@ TEST_CASE("1003h: resolved errors are not entered [E8] [N8]") {
   CHECK(node.errors() == Errors{0x8130, 0x2000});
 }
 
+#if USE_EMCY_QUEUE
+
 TEST_CASE("1003h: errors are entered in their order, independent of the inhibit time [E8]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 1000);
   node.set(current);
@@ -94,6 +96,8 @@ TEST_CASE("1003h: errors are entered in their order, independent of the inhibit 
   node.after(1s);
   CHECK(node.trace().size() == 2);
 }
+
+#endif
 
 TEST_CASE("1003h: writing 0 to sub-index 0 empties it; any other value is refused [E4] [SDO 10]") {
   EmcyNode node;

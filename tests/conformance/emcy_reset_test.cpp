@@ -65,6 +65,8 @@ TEST_CASE("EMCY: reset communication resolves the errors of the stack; those of 
   node.silent();
 }
 
+#if USE_EMCY_QUEUE
+
 TEST_CASE("EMCY: a reset drops messages queued for the inhibit time, which starts anew [T14] [N4]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {
     CAPTURE(reset);
@@ -83,6 +85,8 @@ TEST_CASE("EMCY: a reset drops messages queued for the inhibit time, which start
     node.silent();
   }
 }
+
+#endif
 
 TEST_CASE("EMCY: a reset by the application has the effect of one by the NMT master") {
   EmcyNode node;

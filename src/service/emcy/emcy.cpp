@@ -3,7 +3,6 @@
 
 #if USE_EMCY
 
-#include "base/count.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
@@ -19,7 +18,6 @@ using event::Fault;
 
 constexpr uint32_t key_register = CO_DEV(0x1001, 0);
 constexpr uint32_t key_cob_id = CO_DEV(0x1014, 0);
-constexpr uint32_t key_inhibit = CO_DEV(0x1015, 0);
 
 constexpr uint8_t generic = 1U << CO_EMCY_REG_GENERAL;
 constexpr uint8_t communication = generic | (1U << CO_EMCY_REG_COM);
@@ -126,87 +124,12 @@ void write_register(CO_NODE& node) {
 
 // Messages ------------------------------------------------------------------------------------------------------------
 
-// Starts a timer. ticks 0 is a time beyond the timer's range.
-[[gnu::noinline]] void start(CO_NODE& node, CO_TMR_MEM& timer, uint32_t ticks, CO_TMR_FUNC func) {
-  tmr::start(node.Tmr, timer, ticks != 0 ? ticks : UINT32_MAX, 0, func, &node);
-}
-
-void remove_first(CO_EMCY& emcy) {
-  --emcy.Waiting;
-  for (unsigned n = 0; n < emcy.Waiting; ++n) {
-    emcy.Queue[n] = emcy.Queue[n + 1];
-  }
-}
-
-// Returns the inhibit time in units of 100 µs; 0: none.
-unsigned inhibit_time(CO_NODE& node) {
-  uint16_t time = 0;
-  return dict::read_u16(node.Dict, key_inhibit, time) == CO_ERR_NONE ? time : 0;
-}
-
-void resume_sending(void* node_pointer);
-
-// Sends queued messages until the inhibit time starts; if the transmit queue is full, tries again later.
-void send_waiting(CO_NODE& node, uint32_t identifier) {
-  constexpr unsigned next_attempt = 10;  // x 100 µs
-  CO_EMCY& emcy = node.Emcy;
-  while (emcy.Waiting != 0) {
-    unsigned pause = next_attempt;
-    if (!transmit::is_full(node)) {
-      const CO_IF_FRM frame = wire::emcy(identifier, emcy.Queue[0]);
-      remove_first(emcy);
-      transmit::send(node, frame);
-      pause = inhibit_time(node);
-    }
-    if (pause != 0) {
-      start(node, emcy.Tmr, tmr::ticks(node.Tmr, pause, CO_TMR_UNIT_100US), resume_sending);
-      return;
-    }
-  }
-}
-
-void resume_sending(void* node_pointer) {
-  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
-  const uint32_t id = identifier(node);
-  if (id == wire::no_frame) {
-    withdraw(node, id);
-  } else {
-    send_waiting(node, id);
-  }
-}
-
-// Sends the queued messages, unless the inhibit time is running. Messages that were queued while there is no identifier
-// are forgotten, not dropped.
-void send_if_permitted(CO_NODE& node) {
-  if (node.Emcy.Waiting == 0 || tmr::is_running(node.Emcy.Tmr)) {
-    return;
-  }
-  const uint32_t id = identifier(node);
-  if (id == wire::no_frame) {
-    node.Emcy.Waiting = 0;
-  } else {
-    send_waiting(node, id);
-  }
-}
-
-// Updates the error register and queues a message with it, which send_queued() sends. In a full queue the message
-// replaces the newest one, so that the last message always reports the present state.
+// Updates the error register and sends a message with it.
 void post(CO_NODE& node, CO_EMCY_MSG msg) {
   msg = wire::with_register(msg, update_register(node));
-  const bool is_inhibited = tmr::is_running(node.Emcy.Tmr);
-  if (!event::is_allowed(node, CO_EMCY_ALLOWED) || (is_inhibited && identifier(node) == wire::no_frame)) {
-    return;
+  if (event::is_allowed(node, CO_EMCY_ALLOWED)) {
+    send_message(node, msg);
   }
-  CO_EMCY& emcy = node.Emcy;
-  if (emcy.Waiting == CO_EMCY_QUEUE_N) {
-    send_if_permitted(node);
-  }
-  if (emcy.Waiting == CO_EMCY_QUEUE_N) {
-    count(node.Count.Dropped);
-    --emcy.Waiting;
-  }
-  emcy.Queue[emcy.Waiting++] = msg;
-  event::defer(node, event::send_emcy);
 }
 
 // Ends an API function: sends its messages, also in a callback, before the TPDOs that the application requests then.
@@ -302,7 +225,7 @@ void on_mode(CO_NODE& node) {
   }
   withdraw(node, transmit::is_waiting(node) ? identifier(node) : wire::no_frame);
   if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
-    tmr::stop(node.Tmr, node.Emcy.Tmr);
+    stop_inhibit_time(node);
     for (CO_TMR_MEM& timer : node.Emcy.Hold) {
       tmr::stop(node.Tmr, timer);
     }
@@ -314,7 +237,7 @@ void raise(CO_NODE& node, Fault fault, uint32_t detail) {
   const auto kind = static_cast<uint8_t>(fault);
   uint16_t& number = number_of(node, fault);
   if (kind < CO_EMCY_HOLD_N) {
-    start(node, node.Emcy.Hold[kind], node.Tmr.Freq, resolve_held);
+    tmr::start(node.Tmr, node.Emcy.Hold[kind], node.Tmr.Freq, 0, resolve_held, &node);
   }
   if (kind <= static_cast<uint8_t>(Fault::passive) && number != 0) {
     return;
@@ -367,19 +290,12 @@ void send_queued(CO_NODE& node) {
   if (node.Emcy.RegisterChanged != 0) {
     write_register(node);
   }
-  send_if_permitted(node);
+  send_waiting(node);
 }
 
 uint32_t identifier(CO_NODE& node) {
   const uint32_t cob_id = dict::read_cob_id(node.Dict, key_cob_id, wire::cob_invalid);
   return cob_id != wire::cob_invalid ? wire::frame_id(cob_id) : wire::no_frame;
-}
-
-void withdraw(CO_NODE& node, uint32_t identifier) {
-  for (; node.Emcy.Waiting != 0; --node.Emcy.Waiting) {
-    count(node.Count.Dropped);
-  }
-  transmit::withdraw(node, identifier);
 }
 
 }  // namespace co::emcy
