@@ -60,7 +60,9 @@ TEST_CASE("error status bits: the length is that of the error table or the given
   };
   CHECK(length(0, 1, 0) == 1);
   CHECK(length(0, 8, 0) == 1);
-  CHECK(length(0, 9, 0) == 2);
+  if (CO_EMCY_N > 8) {
+    CHECK(length(0, 9, 0) == 2);
+  }
   CHECK(length(0, 8, 1) == 3);
   CHECK(length(4, 8, 0) == 4);
   CHECK(length(4, 8, 1) == 6);
@@ -115,7 +117,9 @@ TEST_CASE("error status bits: each error of the stack has its bit while it is pr
   };
   CO_EMCY_BITS bits{0, 1, 1};
   EmcyNode node(with_bits(bits));
-  for (const auto& [fault, bit] : all) {
+  for (const auto& row : all) {
+    const Fault fault = row.first;
+    const unsigned bit = row.second;
     CAPTURE(bit);
     node.raise_fault(fault);
     node.trace();
