@@ -87,10 +87,10 @@ TEST_CASE("1023h: the status is 0 to 3 for success and failure with and without 
   Shell shell;
   CHECK(shell.status() == 0);
   const std::pair<const char*, unsigned> all[] = {{"run", 0}, {"=yes", 1}, {"!", 2}, {"!no", 3}, {"", 0}};
-  for (const auto& [command, status] : all) {
-    CAPTURE(command);
-    CHECK(shell.send(command) == 0);
-    CHECK(shell.status() == status);
+  for (const auto& row : all) {
+    CAPTURE(row.first);
+    CHECK(shell.send(row.first) == 0);
+    CHECK(shell.status() == row.second);
   }
   CHECK(shell.log() == "run;=yes;!;!no;;");
 }

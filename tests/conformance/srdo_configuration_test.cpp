@@ -131,9 +131,9 @@ TEST_CASE("1381h: entries with a wrong length, object or flag are refused [SR2]"
                                                            {0x00050008, 0},
                                                            {0x00060010, 0},
                                                            {0x00070020, 0}};
-  for (const auto& [mapping, expected] : cases) {
-    CAPTURE(mapping);
-    CHECK(node.set(0x1381, 1, 4, mapping) == expected);
+  for (const auto& row : cases) {
+    CAPTURE(row.first);
+    CHECK(node.set(0x1381, 1, 4, row.first) == row.second);
   }
   node.trace();
 }
