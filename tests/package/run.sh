@@ -55,7 +55,8 @@ by_readme() {
   export HOME=$directory/home PATH=$directory/bin:$PATH
   mkdir -p "$directory/clone/firmware" "$directory/bin" "$HOME"
   ln -s /bin/false "$directory/bin/make"
-  tar -C "$source" --exclude=./build --exclude=./.git -cf - . | tar -C "$directory/clone" -xf -
+  # tar would fail if another lane adds a file to the directory meanwhile.
+  find "$source" -mindepth 1 -maxdepth 1 ! -name build ! -name .git -exec cp -a -t "$directory/clone" {} +
   cp "$program" "$directory/clone/firmware/main.c"
   readme_blocks cmake >"$directory/clone/firmware/CMakeLists.txt"
   mapfile -t commands < <(readme_blocks sh | sed -e ':join; /\\$/ { N; s/\\\n//; b join }')
