@@ -150,15 +150,16 @@ typedef struct CO_EMCY_MSG_T {  // bytes of a message, the first one lowest
 
 /// Emergencies of a node: &node.Emcy. The application must not access the members.
 typedef struct CO_EMCY_T {
-  struct CO_NODE_T* Node;           ///< owner
-  const CO_EMCY_TBL* Root;          ///< CO_NODE_SPEC.EmcyCode
-  uint8_t Waiting;                  ///< messages in the queue, oldest first
-  CO_EMCY_HIST Hist;                ///< 1003h
-  uint8_t Register;                 ///< error register
-  uint8_t RegisterChanged;          ///< the error register was not written to 1001h yet
-  uint8_t Err[CO_EMCY_STORAGE];     ///< errors of the application: bit 0 of byte 0 is identifier 0
-  uint16_t Fault[CO_EMCY_FAULT_N];  ///< number of unresolved occurrences of each error of the stack
-  CO_TMR_MEM Hold[CO_EMCY_HOLD_N];  ///< times until 8110h and 8150h are resolved
+  struct CO_NODE_T* Node;                    ///< owner
+  const CO_EMCY_TBL* Root;                   ///< CO_NODE_SPEC.EmcyCode
+  uint8_t Waiting;                           ///< messages in the queue, oldest first
+  CO_EMCY_HIST Hist;                         ///< 1003h
+  uint8_t Register;                          ///< error register
+  uint8_t RegisterChanged;                   ///< the error register was not written to 1001h yet
+  void (*ShowBits)(struct CO_NODE_T* node);  ///< triggers the TPDOs of error status bits; null: there are none
+  uint8_t Err[CO_EMCY_STORAGE];              ///< errors of the application: bit 0 of byte 0 is identifier 0
+  uint16_t Fault[CO_EMCY_FAULT_N];           ///< number of unresolved occurrences of each error of the stack
+  CO_TMR_MEM Hold[CO_EMCY_HOLD_N];           ///< times until 8110h and 8150h are resolved
 #if USE_EMCY_QUEUE
   CO_TMR_MEM Tmr;                      ///< inhibit time
   CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];  ///< messages that wait for the inhibit time or the transmit queue
@@ -213,17 +214,19 @@ typedef struct CO_EMCY_BITS_T {
   uint8_t Stack;  ///< 1: two bytes with the errors of the stack follow (CO_EMCY_BIT_...); 0: none
 } CO_EMCY_BITS;
 
-#define CO_EMCY_BIT_OVERRUN 0       ///< 8110h: received frames were lost
-#define CO_EMCY_BIT_COLLISION 1     ///< 8150h: CAN-ID collision
-#define CO_EMCY_BIT_PASSIVE 2       ///< 8120h: error passive
-#define CO_EMCY_BIT_HEARTBEAT 3     ///< 8130h: a node is missing
-#define CO_EMCY_BIT_LIFE_GUARD 4    ///< 8130h: the NMT master is missing
-#define CO_EMCY_BIT_BUS_OFF 5       ///< 8140h: bus-off, until the recovery is reported
-#define CO_EMCY_BIT_PDO_SHORT 6     ///< 8210h: PDO too short
-#define CO_EMCY_BIT_PDO_LONG 7      ///< 8220h: PDO too long
-#define CO_EMCY_BIT_PDO_UNKNOWN 8   ///< 8230h: no object for an MPDO
-#define CO_EMCY_BIT_SYNC_LENGTH 9   ///< 8240h: SYNC with wrong length
-#define CO_EMCY_BIT_PDO_TIMEOUT 10  ///< 8250h: RPDO missing
+#define CO_EMCY_BIT_OVERRUN 0              ///< 8110h: received frames were lost
+#define CO_EMCY_BIT_COLLISION 1            ///< 8150h: CAN-ID collision
+#define CO_EMCY_BIT_PASSIVE 2              ///< 8120h: error passive
+#define CO_EMCY_BIT_HEARTBEAT 3            ///< 8130h: a node is missing
+#define CO_EMCY_BIT_LIFE_GUARD 4           ///< 8130h: the NMT master is missing
+#define CO_EMCY_BIT_BUS_OFF 5              ///< 8140h: bus-off, until the recovery is reported
+#define CO_EMCY_BIT_PDO_SHORT 6            ///< 8210h: PDO too short
+#define CO_EMCY_BIT_PDO_LONG 7             ///< 8220h: PDO too long
+#define CO_EMCY_BIT_PDO_UNKNOWN 8          ///< 8230h: no object for an MPDO
+#define CO_EMCY_BIT_SYNC_LENGTH 9          ///< 8240h: SYNC with wrong length
+#define CO_EMCY_BIT_PDO_TIMEOUT 10         ///< 8250h: RPDO missing
+#define CO_EMCY_BIT_SRDO_CONFIGURATION 11  ///< 6300h: configuration of an SRDO
+#define CO_EMCY_BIT_SRDO 12                ///< 8200h: an SRDO has failed
 
 extern const CO_OBJ_TYPE COTEmcyBits CO_NEEDS(USE_EMCY);  ///< functions of CO_TEMCY_BITS
 

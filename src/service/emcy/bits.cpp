@@ -24,6 +24,9 @@ constexpr uint32_t bit_of(uint32_t fault) {
 static_assert(static_cast<uint32_t>(event::Fault::pdo_long) == CO_EMCY_BIT_PDO_LONG);
 static_assert(bit_of(static_cast<uint32_t>(event::Fault::sync_length)) == CO_EMCY_BIT_SYNC_LENGTH);
 static_assert(bit_of(static_cast<uint32_t>(event::Fault::pdo_timeout)) == CO_EMCY_BIT_PDO_TIMEOUT);
+#if CO_SRDO_N > 0
+static_assert(bit_of(static_cast<uint32_t>(event::Fault::srdo)) == CO_EMCY_BIT_SRDO);
+#endif
 
 uint8_t stack_byte(const CO_EMCY& emcy, uint32_t byte) {
   uint32_t set = 0;
@@ -61,21 +64,26 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t length) {
   return CO_ERR_NONE;
 }
 
-}  // namespace
-
-// Searches the table, so that an object needs no registration and any number of them may exist.
-void report_bits(CO_NODE& node) {
-  for (uint16_t entry = 0; entry < node.Dict.Num; ++entry) {
-    const CO_OBJ& obj = node.Dict.Root[entry];
+// Triggers the TPDOs of all objects of the type.
+void trigger(CO_NODE* node) {
+  for (uint16_t entry = 0; entry < node->Dict.Num; ++entry) {
+    const CO_OBJ& obj = node->Dict.Root[entry];
     if (obj.Type == &COTEmcyBits) {
-      event::change_object(node, obj);
+      event::change_object(*node, obj);
     }
   }
 }
 
+CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
+  node->Emcy.ShowBits = trigger;
+  return stream::init(obj, node);
+}
+
+}  // namespace
+
 }  // namespace co::emcy
 
-extern "C" const CO_OBJ_TYPE COTEmcyBits = {co::emcy::size, co::stream::init, co::emcy::read, nullptr,
+extern "C" const CO_OBJ_TYPE COTEmcyBits = {co::emcy::size, co::emcy::init_entry, co::emcy::read, nullptr,
                                             co::stream::reset};
 
 #endif

@@ -53,9 +53,9 @@ constexpr uint8_t mask(unsigned err) { return static_cast<uint8_t>(1U << (err % 
 bool is_set(const CO_EMCY& emcy, unsigned err) { return (emcy.Err[err / 8] & mask(err)) != 0; }
 
 // Reports that a bit of the error status has changed.
-void show_bits(CO_NODE& node) {
-  if (report_bits != nullptr) {
-    report_bits(node);
+[[gnu::noinline]] void show_bits(CO_NODE& node) {
+  if (node.Emcy.ShowBits != nullptr) {
+    node.Emcy.ShowBits(&node);
   }
 }
 

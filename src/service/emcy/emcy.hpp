@@ -24,9 +24,6 @@ void forget_application(CO_NODE& node);
 // Returns the number of errors of the application.
 [[nodiscard]] unsigned table_length(const CO_EMCY& emcy);
 
-// Triggers the TPDOs that map error status bits. Weak: null unless a dictionary has an object of CO_TEMCY_BITS, whose
-// file defines the function.
-[[gnu::weak]] void report_bits(CO_NODE& node);
 // Writes the error register to 1001h, and sends the queued messages unless the inhibit time is running: part of the
 // deferred work.
 void send_queued(CO_NODE& node);
