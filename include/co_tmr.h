@@ -51,12 +51,11 @@ typedef struct CO_TMR_T {
   CO_TMR_MEM* Free;        ///< unused timers of the pool
   /// Link to the first armed timer: advanced by COTmrService(), while COTmrProcess() removes elapsed ones.
   CO_TMR_MEM** Armed;
-  CO_TMR_MEM** End;     ///< link behind the last armed timer, if there is one
-  uint32_t Freq;        ///< ticks per second
-  uint32_t Clock;       ///< with a clock: its last reading; without: time of the next expiry, or of the stop
-  uint32_t Programmed;  ///< ticks programmed in a driver without a clock; 0: stopped
-  uint16_t Max;         ///< timers in the pool
-  uint16_t IdStep;      ///< step between two generations of an id, a power of two
+  CO_TMR_MEM** End;  ///< link behind the last armed timer, if there is one
+  uint32_t Freq;     ///< ticks per second
+  uint32_t Clock;    ///< clock of the driver when it was read last
+  uint16_t Max;      ///< timers in the pool
+  uint16_t IdStep;   ///< step between two generations of an id, a power of two
 } CO_TMR;
 
 /// Converts \a time, in units of 1/\a unit seconds (CO_TMR_UNIT_…), to ticks, rounded up, so that no timer expires

@@ -45,54 +45,17 @@ void advance(CO_TMR& t, uint32_t now) {
   __atomic_store_n(&t.Armed, armed, __ATOMIC_RELAXED);
 }
 
-// Returns the ticks for which a classic driver counts while no timer is armed; 0 stops it. While an elapsed cyclic
-// timer has not been processed by the loop, the driver must count, so that the timer keeps its phase: until its next
-// expiry or, if that is missed, as long as possible, so that a blocked loop causes only one more interrupt.
-uint32_t wait_for_loop(const CO_TMR& t, uint32_t now) {
-  const CO_TMR_MEM* timer = t.First;
-  while (timer != nullptr && timer->Cycle == 0) {
-    timer = timer->Next;
-  }
-  if (timer == nullptr) {
-    return 0;
-  }
-  const uint32_t late = now - timer->At;
-  return late < timer->Cycle ? timer->Cycle - late : UINT32_MAX;
-}
-
-// Programs the driver for the first armed timer.
-void program(CO_TMR& t, uint32_t now) {
-  const CO_TMR_MEM* const first = *t.Armed;
-  if (port::has_clock(*t.Node)) {
-    port::set_alarm(*t.Node, first != nullptr ? first->At - now : 0);
-    return;
-  }
-  const uint32_t wait = first != nullptr ? first->At - now : wait_for_loop(t, now);
-  port::count_down(*t.Node, wait, t.Programmed == 0);
-  t.Clock = now + wait;
-  t.Programmed = wait;
-}
-
-// Returns whether a classic driver has elapsed and COTmrService(), which programs it again, has not been called yet.
-bool is_pending(const CO_TMR& t, uint32_t now) { return t.Programmed != 0 && now == t.Clock; }
-
-// Programs the driver, unless COTmrService() will do it.
-void reprogram(CO_TMR& t, uint32_t now) {
-  if (!is_pending(t, now)) {
-    program(t, now);
-  }
-}
-
-// Returns the present clock. With a driver that has a clock, timers that have elapsed become due.
+// Reads the clock; timers that have elapsed become due. Returns the clock.
 uint32_t synchronise(CO_TMR& t) {
-  if (t.Programmed != 0) {  // a classic driver is counting
-    const uint32_t left = port::ticks_left(*t.Node);
-    return t.Clock - (left < t.Programmed ? left : t.Programmed);
-  }
-  if (port::has_clock(*t.Node)) {
-    advance(t, port::now(*t.Node));
-  }
-  return t.Clock;
+  const uint32_t now = port::now(*t.Node);
+  advance(t, now);
+  return now;
+}
+
+// Programs the driver for the first armed timer. now: the present clock
+void program(const CO_TMR& t, uint32_t now) {
+  const CO_TMR_MEM* const first = *t.Armed;
+  port::set_alarm(*t.Node, first != nullptr ? first->At - now : 0);
 }
 
 // Returns whether the armed timers are in the order of their expiry after a clock value, and End refers to the last
@@ -111,7 +74,7 @@ uint32_t synchronise(CO_TMR& t) {
 
 // Links a timer that elapses some ticks after a clock value behind all timers that elapse before it or at the same
 // tick: usually at the end, which is compared first. Returns whether it is the first armed timer. from: the present
-// clock or, with a classic driver, the time of its next expiry, which no armed timer precedes.
+// clock, which no armed timer precedes.
 bool link_by_expiry(CO_TMR& t, CO_TMR_MEM& timer, uint32_t from, uint32_t ticks) {
   CO_TMR_MEM** link = t.Armed;
   CO_TMR_MEM* next = *link;
@@ -137,8 +100,8 @@ bool link_by_expiry(CO_TMR& t, CO_TMR_MEM& timer, uint32_t from, uint32_t ticks)
 // Arms a timer. The driver is programmed only if its next expiry changes.
 void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t now, uint32_t ticks) {
   timer.Running = 1;
-  if (link_by_expiry(t, timer, now, ticks) && timer.At != t.Clock) {
-    reprogram(t, now);
+  if (link_by_expiry(t, timer, now, ticks)) {
+    program(t, now);
   }
 }
 
@@ -156,7 +119,7 @@ void remove(CO_TMR& t, CO_TMR_MEM& timer) {
     t.End = link;
   }
   if (t.Armed == link) {
-    reprogram(t, synchronise(t));
+    program(t, synchronise(t));
   } else if (t.Armed == &timer.Next) {
     t.Armed = link;
   }
@@ -196,25 +159,6 @@ void rearm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t cycle) {
   insert(t, timer, now, cycle - modulo(now - timer.At, cycle));
 }
 
-// Returns whether a classic driver is programmed for a time before the next expiry of an elapsed timer, or for that
-// expiry and has not elapsed yet. until_alarm: ticks from the last expiry of the timer to that for which the driver is
-// programmed, at least those that were programmed; less if they exceed 32 bits.
-bool is_next_ahead(const CO_TMR& t, uint32_t until_alarm, uint32_t cycle) {
-  return USE_FAST_PATHS != 0 && t.Programmed - 1U < until_alarm &&
-         (until_alarm < cycle || (until_alarm == cycle && port::ticks_left(*t.Node) != 0));
-}
-
-// Calls rearm() for a cyclic timer. If no expiry was missed and a classic driver elapses not later than the timer, the
-// driver is neither read nor programmed.
-void start_next_cycle(CO_TMR& t, CO_TMR_MEM& timer) {
-  const uint32_t until_alarm = t.Clock - timer.At;
-  if (is_next_ahead(t, until_alarm, timer.Cycle)) {
-    link_by_expiry(t, timer, t.Clock, timer.Cycle - until_alarm);
-  } else {
-    rearm(t, timer, timer.Cycle);
-  }
-}
-
 void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
   timer.Func = func;
   timer.Para = para;
@@ -231,7 +175,7 @@ const CO_TMR_MEM& remove_elapsed(CO_TMR& t, CO_TMR_MEM*& link) {
     t.Armed = &link;
   }
   if (timer.Cycle != 0) {
-    start_next_cycle(t, timer);
+    rearm(t, timer, timer.Cycle);
     return timer;
   }
   timer.Running = 0;
@@ -390,17 +334,14 @@ void stop(CO_TMR& timers, CO_TMR_MEM& timer) {
 }
 
 uint32_t now(CO_TMR& timers) {
-  if (port::has_clock(*timers.Node)) {
-    return port::now(*timers.Node);
-  }
   const Lock lock(timers);
-  return synchronise(timers);
+  return port::now(*timers.Node);
 }
 
 uint32_t next_deadline(CO_TMR& timers) {
   const Lock lock(timers);
   const uint32_t now = synchronise(timers);
-  if (has_work(timers) || is_pending(timers, now)) {
+  if (has_work(timers)) {
     return 0;
   }
   const CO_TMR_MEM* const next = USE_REAL_TIME != 0 ? *timers.Armed : timers.First;
@@ -461,7 +402,7 @@ void COTmrInit(CO_TMR* tmr, CO_NODE* node, CO_TMR_MEM* mem, uint16_t num, uint32
     timer.Next = tmr->Free;
     tmr->Free = &timer;
   }
-  tmr->Clock = port::has_clock(*node) ? port::now(*node) : 0;
+  tmr->Clock = port::now(*node);
 }
 
 uint32_t COTmrGetTicks(CO_TMR* tmr, uint16_t time, uint32_t unit) {
@@ -515,16 +456,11 @@ int16_t COTmrDelete(CO_TMR* tmr, int16_t actId) {
 int16_t COTmrService(CO_TMR* tmr) {
   ASSERT_PTR_ERR(tmr, -1);
   ASSERT_PTR_ERR(tmr->Node, -1);
-  const CO_NODE& node = *tmr->Node;
-  const bool has_clock = port::has_clock(node);
-  bool has_due = false;
-  if (has_clock || port::has_elapsed(node)) {
-    const uint32_t now = has_clock ? port::now(node) : tmr->Clock;
-    tmr::advance(*tmr, now);
-    tmr::program(*tmr, now);
-    has_due = tmr::has_due(*tmr);
+  CO_NODE& node = *tmr->Node;
+  if (port::has_elapsed(node)) {
+    tmr::program(*tmr, tmr::synchronise(*tmr));
   }
-  return has_due || tmr::has_to_send(node) ? 1 : 0;
+  return tmr::has_due(*tmr) || tmr::has_to_send(node) ? 1 : 0;
 }
 
 }  // extern "C"

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of drivers and lock hooks: no other module calls them. Each driver is a classic driver (CO_IF_DRV, as in
-// CANopen-Stack) or a driver with context argument (CO_NODE_EXT).
+// Calls of drivers and lock hooks: no other module calls them. All drivers have a context argument; hal/classic.cpp has
+// the adapters for classic drivers (CO_IF_DRV, as in CANopen-Stack).
 #pragma once
 
 #include "co_core.h"
 
 namespace co::port {
 
-// Extension of a node that was initialised without one.
+// Extension of a node that was initialised without one, or whose extension cannot be used.
 extern const CO_NODE_EXT no_extension;
 
-// Drivers of a node whose CO_NODE_SPEC contains none.
-extern const CO_IF_DRV no_plain_drivers;
-
-// Extension of a node that could not be initialised: its drivers do nothing, so that API calls of the application have
-// no effect.
-extern const CO_NODE_EXT no_drivers;
+// Gives the node drivers that do nothing: it could not be initialised, and API calls of the application have no effect.
+void remove_drivers(CO_NODE& node);
 
 void init(CO_NODE& node);
 
@@ -67,32 +63,19 @@ class NodeLock {
 };
 #endif
 
-// Returns whether the timer driver has a clock. Drivers with context argument have one; classic drivers count down and
-// return the ticks that are left.
-[[nodiscard]] inline bool has_clock(const CO_NODE& node) { return node.Ext->Timer != nullptr; }
-[[nodiscard]] inline uint32_t now(const CO_NODE& node) { return node.Ext->Timer->Now(node.Ext->TimerCtx); }
-[[nodiscard]] inline uint32_t ticks_left(const CO_NODE& node) { return node.If.Drv->Timer->Delay(); }
-[[nodiscard]] inline bool has_elapsed(const CO_NODE& node) { return node.If.Drv->Timer->Update() != 0; }
+[[nodiscard]] inline uint32_t now(const CO_NODE& node) { return node.If.Timer->Now(node.If.TimerCtx); }
 // Requests a call of COTmrService() some ticks after now (0: no call). Without an Alarm function the driver is polled
 // by the loop.
 inline void set_alarm(const CO_NODE& node, uint32_t ticks) {
-  const CO_NODE_EXT& ext = *node.Ext;
-  if (ext.Timer->Alarm != nullptr) {
-    ext.Timer->Alarm(ext.TimerCtx, ticks);
+  const CO_IF& cif = node.If;
+  if (cif.Timer->Alarm != nullptr) {
+    cif.Timer->Alarm(cif.TimerCtx, ticks);
   }
 }
 
-// Like set_alarm(), for a classic driver. stopped: the driver is not counting.
-inline void count_down(const CO_NODE& node, uint32_t ticks, bool stopped) {
-  const CO_IF_TIMER_DRV& driver = *node.If.Drv->Timer;
-  if (ticks == 0) {
-    driver.Stop();
-    return;
-  }
-  driver.Reload(ticks);
-  if (stopped) {
-    driver.Start();
-  }
+// Returns false if a classic timer driver reports that it is still counting.
+[[nodiscard]] inline bool has_elapsed(CO_NODE& node) {
+  return node.If.HasElapsed == nullptr || node.If.HasElapsed(&node.If);
 }
 
 void can_init(const CO_NODE& node);
@@ -104,28 +87,27 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
 
 // Returns the driver's result: sizeof(CO_IF_FRM), 0 (no frame waits), < 0 (fault).
 [[nodiscard]] inline int16_t can_read(const CO_NODE& node, CO_IF_FRM& frame) {
-  const CO_NODE_EXT& ext = *node.Ext;
-  return ext.Can != nullptr ? ext.Can->Read(ext.CanCtx, &frame) : node.If.Drv->Can->Read(&frame);
+  return node.If.Can->Read(node.If.CanCtx, &frame);
 }
 
 // Lets the driver report the events of an error frame that it has returned. Returns false if it has no such function.
 [[nodiscard]] inline bool can_report(CO_NODE& node, const CO_IF_FRM& frame) {
-  const CO_IF_CAN_DRV_EX* const driver = node.Ext->Can;
-  if (driver == nullptr || driver->Report == nullptr) {
+  const auto report = node.If.Can->Report;
+  if (report == nullptr) {
     return false;
   }
-  driver->Report(node.Ext->CanCtx, &node, &frame);
+  report(node.If.CanCtx, &node, &frame);
   return true;
 }
 
 // Returns the driver's result: sizeof(CO_IF_FRM) (accepted), 0 (not now), < 0 (fault).
-[[nodiscard]] int16_t can_send(const CO_NODE& node, const CO_IF_FRM& frame);
-
-[[nodiscard]] bool nvm_exists(const CO_NODE& node);
-[[nodiscard]] inline bool nvm_has_shape(const CO_NODE& node) {
-  return node.Ext->Nvm != nullptr && node.Ext->Nvm->Shape != nullptr;
+[[nodiscard]] inline int16_t can_send(const CO_NODE& node, const CO_IF_FRM& frame) {
+  return node.If.Can->Send(node.If.CanCtx, &frame);
 }
-[[nodiscard]] inline CO_NVM_SHAPE nvm_shape(const CO_NODE& node) { return node.Ext->Nvm->Shape(node.Ext->NvmCtx); }
+
+[[nodiscard]] inline bool nvm_exists(const CO_NODE& node) { return node.If.Nvm != nullptr; }
+[[nodiscard]] inline bool nvm_has_shape(const CO_NODE& node) { return nvm_exists(node) && node.If.Nvm->Shape != nullptr; }
+[[nodiscard]] inline CO_NVM_SHAPE nvm_shape(const CO_NODE& node) { return node.If.Nvm->Shape(node.If.NvmCtx); }
 [[nodiscard]] bool nvm_erase(const CO_NODE& node, uint32_t start, uint32_t size);
 [[nodiscard]] uint32_t nvm_read(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);
 [[nodiscard]] uint32_t nvm_write(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);

@@ -10,6 +10,7 @@
 #include "co_core.h"
 #include "dictionary/dict.hpp"
 #include "hal/port.hpp"
+#include "node/node.hpp"
 #include "node/services.hpp"
 #include "service/nmt/nmt.hpp"
 #include "service/pdo/pdo.hpp"
@@ -145,10 +146,10 @@ CO_ERR check_drivers(const CO_NODE& node, const CO_NODE_SPEC& spec) {
   if (node.Ext->Size < sizeof(CO_NODE_EXT)) {
     return CO_ERR_NODE_EXT;
   }
-  if (node.Ext->Can == nullptr && node.If.Drv->Can == nullptr) {
+  if (node.If.Can == nullptr) {
     return CO_ERR_NODE_CAN;
   }
-  if (node.Ext->Timer == nullptr && node.If.Drv->Timer == nullptr) {
+  if (node.If.Timer == nullptr) {
     return CO_ERR_NODE_TIMER;
   }
   return spec.TmrFreq == 0 ? CO_ERR_NODE_TMR_FREQ : CO_ERR_NONE;
@@ -163,6 +164,16 @@ CO_ERR check_spec(const CO_NODE_SPEC& spec) {
   return spec.Dict == nullptr || spec.DictLen == 0 ? CO_ERR_NODE_DICT : CO_ERR_NONE;
 }
 
+// Copies the drivers that the extension names.
+void take_drivers(CO_IF& cif, const CO_NODE_EXT& ext) {
+  cif.Can = ext.Can;
+  cif.CanCtx = ext.CanCtx;
+  cif.Timer = ext.Timer;
+  cif.TimerCtx = ext.TimerCtx;
+  cif.Nvm = ext.Nvm;
+  cif.NvmCtx = ext.NvmCtx;
+}
+
 // Initialises the drivers, the timers and the transmit queue. Where no driver may be called, the node gets drivers that
 // do nothing.
 CO_ERR begin(CO_NODE& node, const CO_NODE_SPEC& spec) {
@@ -171,7 +182,8 @@ CO_ERR begin(CO_NODE& node, const CO_NODE_SPEC& spec) {
     node.Tmr.Freq = spec.TmrFreq;
     port::init(node);
   } else {
-    node.Ext = &port::no_drivers;
+    node.Ext = &port::no_extension;
+    port::remove_drivers(node);
   }
   COTmrInit(&node.Tmr, &node, spec.TmrMem, spec.TmrNum, spec.TmrFreq);
   transmit::init(node);
@@ -185,7 +197,10 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
   node.NodeId = spec.NodeId;
   node.Baudrate = spec.Baudrate;
   node.SdoBuf = spec.SdoBuf;
-  node.If = {&node, spec.Drv != nullptr ? spec.Drv : const_cast<CO_IF_DRV*>(&port::no_plain_drivers)};
+  node.If.Node = &node;
+  if (ext.Size >= sizeof ext) {
+    take_drivers(node.If, ext);
+  }
   node.Nmt.Node = &node;
 #if USE_EMCY
   node.Emcy.Node = &node;
@@ -381,19 +396,14 @@ void event::send_deferred(CO_NODE& node) {
   }
 }
 
-}  // namespace co
-
-using namespace co;
-
-extern "C" {
-
-void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) { CONodeInitEx(node, spec, nullptr); }
-
-void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) {
+void node::init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext, AddDrivers add_drivers) {
   ASSERT_PTR_FATAL(node);
   ASSERT_PTR_FATAL(spec);
-  node::take_over(*node, *spec, ext == nullptr ? port::no_extension : *ext);
-  node->Error = node::begin(*node, *spec);
+  take_over(*node, *spec, ext == nullptr ? port::no_extension : *ext);
+  if (add_drivers != nullptr && spec->Drv != nullptr) {
+    add_drivers(node->If, *spec->Drv);
+  }
+  node->Error = begin(*node, *spec);
   if (node->Error != CO_ERR_NONE) {
     return;
   }
@@ -405,7 +415,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   bool initialised = false;
   {
     const event::Serving serving(*node);
-    initialised = node::initialise(*node, CO_RESET_NODE);
+    initialised = initialise(*node, CO_RESET_NODE);
     event::forget_resets(*node);
   }
   event::run_deferred(*node);
@@ -417,8 +427,18 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   if (!initialised) {
     return;
   }
-  node::check_mandatory_objects(*node);
+  check_mandatory_objects(*node);
   port::can_enable(*node, node->Baudrate);
+}
+
+}  // namespace co
+
+using namespace co;
+
+extern "C" {
+
+void CONodeInitCtx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) {
+  node::init(node, spec, ext, nullptr);
 }
 
 void CONodeStart(CO_NODE* node) {
@@ -541,13 +561,11 @@ CO_NODE_COUNTERS CONodeGetCounters(const CO_NODE* node) { return node == nullptr
 
 void* CONodeGetUser(const CO_NODE* node) { return node == nullptr || node->Ext == nullptr ? nullptr : node->Ext->User; }
 
-// The symbols of both functions contain this library's configuration (lexican/detail/configuration.h); programs that
-// declare them without co_core.h link these aliases.
+// The symbol contains this library's configuration (lexican/detail/configuration.h); programs that declare the function
+// without co_core.h link this alias.
 #ifdef CO_CONFIGURED_SYMBOL
-void node_init_plain(CO_NODE*, const CO_NODE_SPEC*) __asm__("CONodeInit")
-    __attribute__((alias(CO_CONFIGURED_SYMBOL("CONodeInit"))));
-void node_init_ex_plain(CO_NODE*, const CO_NODE_SPEC*, const CO_NODE_EXT*) __asm__("CONodeInitEx")
-    __attribute__((alias(CO_CONFIGURED_SYMBOL("CONodeInitEx"))));
+void node_init_ctx_plain(CO_NODE*, const CO_NODE_SPEC*, const CO_NODE_EXT*) __asm__("CONodeInitCtx")
+    __attribute__((alias(CO_CONFIGURED_SYMBOL("CONodeInitCtx"))));
 #endif
 
 }  // extern "C"

@@ -82,13 +82,13 @@ struct Device {
   }
 
   CO_ERR save(const Values& values) {
-    ext.NvmCtx = &nvm;
+    node.If.NvmCtx = &nvm;
     ram = values;
     return COParaStore(&group, &node);
   }
 
   CO_ERR restore() {
-    ext.NvmCtx = &nvm;
+    node.If.NvmCtx = &nvm;
     return COParaRestore(&group, &node);
   }
 

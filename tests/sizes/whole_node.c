@@ -141,6 +141,8 @@ static const CO_OBJ Dictionary[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIG
 #endif
                                     CO_OBJ_DICT_ENDMARK};
 
+/* Drivers with context argument or, with NODE_IS_CLASSIC, classic drivers. */
+#if NODE_IS_CLASSIC
 static void Nothing(void) {}
 static void Take(uint32_t value) { (void)value; }
 static int16_t Frame(CO_IF_FRM* frame) {
@@ -153,6 +155,33 @@ static uint8_t Elapsed(void) { return 0; }
 static const CO_IF_CAN_DRV Can = {Nothing, Take, Frame, Frame, Nothing, Nothing};
 static const CO_IF_TIMER_DRV Timer = {Take, Take, Ticks, Nothing, Nothing, Elapsed};
 static CO_IF_DRV Drivers = {&Can, &Timer, 0};
+#define DRIVERS &Drivers
+#else
+static void Nothing(void* ctx) { (void)ctx; }
+static void Take(void* ctx, uint32_t value) {
+  (void)ctx;
+  (void)value;
+}
+static int16_t Read(void* ctx, CO_IF_FRM* frame) {
+  (void)ctx;
+  (void)frame;
+  return 0;
+}
+static int16_t Send(void* ctx, const CO_IF_FRM* frame) {
+  (void)ctx;
+  (void)frame;
+  return 0;
+}
+static uint32_t Ticks(void* ctx) {
+  (void)ctx;
+  return 0;
+}
+
+static const CO_IF_CAN_DRV_EX Can = {Nothing, Take, Read, Send, Nothing, Nothing, 0, 0};
+static const CO_IF_TIMER_DRV_EX Timer = {Take, Ticks, Take};
+static const CO_NODE_EXT Settings = {.Size = sizeof(CO_NODE_EXT), .Can = &Can, .Timer = &Timer};
+#define DRIVERS 0
+#endif
 static CO_EMCY_TBL Errors[2] = {{0, 0x1000}, {1, 0x2000}};
 
 #if !NODE_IS_SMALLEST
@@ -166,11 +195,15 @@ static void Done(CO_CSDO* client, uint16_t index, uint8_t sub, uint32_t code) {
 
 int main(void) {
   CO_NODE_SPEC spec = {
-      1, 250000, (CO_OBJ*)Dictionary, sizeof(Dictionary) / sizeof(Dictionary[0]), Errors, 0, 0, 1000, &Drivers, 0};
+      1, 250000, (CO_OBJ*)Dictionary, sizeof(Dictionary) / sizeof(Dictionary[0]), Errors, 0, 0, 1000, DRIVERS, 0};
 #if !NODE_IS_SMALLEST
   spec.SdoBuf = SdoBuffer;
 #endif
+#if NODE_IS_CLASSIC
   CONodeInit(&Node, &spec);
+#else
+  CONodeInitCtx(&Node, &spec, &Settings);
+#endif
   CONodeStart(&Node);
   COEmcySet(&Node.Emcy, 0, 0);
   COEmcyClr(&Node.Emcy, 0);
