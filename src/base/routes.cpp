@@ -103,10 +103,11 @@ void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number
 
 unsigned next(const CO_NODE& node, unsigned place, uint32_t identifier, uint16_t owner) {
   const CO_ROUTES& routes = node.Routes;
-  if (place >= routes.Start[end] || !is_at(node, place, identifier) || routes.Owner[place] != owner) {
+  if (USE_FAST_PATHS == 0 || place >= routes.Start[end] || !is_at(node, place, identifier) ||
+      routes.Owner[place] != owner) {
     place = 0;
   }
-  while (routes.Id[place] != no_identifier && !is_behind(routes, place, identifier, owner)) {
+  while (!is_behind(routes, place, identifier, owner)) {  // true for the end mark
     ++place;
   }
   return is_at(node, place, identifier) ? place : nowhere;

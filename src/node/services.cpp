@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/services.hpp"
 
+#include <stddef.h>
+
 #include "base/callbacks.hpp"
 #include "base/count.hpp"
 #include "base/events.hpp"
@@ -120,14 +122,37 @@ constexpr bool is_ordered() {
 }
 static_assert(is_ordered());
 
+constexpr size_t rows = sizeof table / sizeof table[0];
+
 // Calls a function of all services that have it.
-void run(CO_NODE& node, void (*Service::*column)(CO_NODE& node)) {
-  for (const Service& service : table) {
-    if (service.*column != nullptr) {
-      (service.*column)(node);
-    }
+template <auto column, size_t row = 0>
+[[gnu::always_inline]] inline void run(CO_NODE& node) {
+  constexpr auto function = table[row].*column;
+  if constexpr (function != nullptr) {
+    function(node);
+  }
+  if constexpr (row + 1 < rows) {
+    run<column, row + 1>(node);
   }
 }
+
+// Functions of the services that receive frames, indexed by routes::Service.
+struct Receiver {
+  uint8_t allowed;
+  bool (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+  bool (*on_remote)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+};
+struct Receivers {
+  Receiver row[static_cast<size_t>(Id::count)];
+};
+constexpr Receivers receivers_of_table() {
+  Receivers receivers = {};
+  for (size_t n = 0; n < static_cast<size_t>(Id::count); ++n) {
+    receivers.row[n] = {table[n].allowed, table[n].on_frame, table[n].on_remote};
+  }
+  return receivers;
+}
+constexpr Receivers receivers = receivers_of_table();
 
 // Returns the number of senders of all services (Service.streams).
 constexpr uint16_t count_streams() {
@@ -141,12 +166,16 @@ constexpr uint16_t streams = count_streams();
 static_assert(streams <= UINT8_MAX, "CO_NODE.NextSender");
 
 // Calls on_free of the service that owns the sender with this number. Returns whether it has sent frames.
+template <size_t row = 0>
 bool continue_sender(CO_NODE& node, uint16_t stream) {
-  for (const Service& service : table) {
-    if (stream < service.streams) {
-      return service.on_free(node, stream);
+  constexpr uint16_t own = table[row].streams;
+  if constexpr (own != 0) {
+    if (stream < own) {
+      return table[row].on_free(node, stream);
     }
-    stream = static_cast<uint16_t>(stream - service.streams);
+  }
+  if constexpr (row + 1 < rows) {
+    return continue_sender<row + 1>(node, static_cast<uint16_t>(stream - own));
   }
   return false;
 }
@@ -155,7 +184,7 @@ bool continue_sender(CO_NODE& node, uint16_t stream) {
 
 namespace services {
 
-void init(CO_NODE& node) { run(node, &Service::init); }
+void init(CO_NODE& node) { run<&Service::init>(node); }
 
 #if USE_LSS
 void load_node_id(CO_NODE& node) { lss::load(node); }
@@ -182,7 +211,7 @@ void forget_application(CO_NODE& node) { emcy::forget_application(node); }
 void send_emcy(CO_NODE& node) { emcy::send_queued(node); }
 #endif
 
-void configure(CO_NODE& node) { run(node, &Service::configure); }
+void configure(CO_NODE& node) { run<&Service::configure>(node); }
 
 void remap(CO_NODE& node) {
   pdo::remap(node);
@@ -210,7 +239,7 @@ void on_free(CO_NODE& node) {
 bool is_real_time(const CO_NODE& node, unsigned place) {
   constexpr unsigned own = CO_SYNC_ALLOWED | CO_PDO_ALLOWED;
   const uint32_t id = node.Routes.Id[place];
-  while (routes::is_at(node, place, id) && (table[routes::service_of(node.Routes.Owner[place])].allowed & own) != 0) {
+  while (routes::is_at(node, place, id) && (receivers.row[routes::service_of(node.Routes.Owner[place])].allowed & own) != 0) {
     ++place;
   }
   return !routes::is_at(node, place, id);
@@ -228,7 +257,7 @@ namespace {
     const uint16_t owner = node.Routes.Owner[place];
     const bool alone = !routes::is_at(node, place + 1, id);
     CO_ASSERT(routes::service_of(owner) < static_cast<unsigned>(Id::count));
-    const Service& service = table[routes::service_of(owner)];
+    const Receiver& service = receivers.row[routes::service_of(owner)];
     if (event::is_allowed(node, service.allowed)) {
       const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? service.on_remote : service.on_frame;
       claimed = true;
@@ -252,7 +281,7 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
   }
   const uint16_t owner = node.Routes.Owner[place];
   CO_ASSERT(routes::service_of(owner) < static_cast<unsigned>(Id::count));
-  const Service& service = table[routes::service_of(owner)];
+  const Receiver& service = receivers.row[routes::service_of(owner)];
   if (!event::is_allowed(node, service.allowed)) {
     return false;
   }
@@ -350,7 +379,7 @@ void enter(CO_NODE& node, CO_MODE mode) {
   node.Nmt.Mode = mode;
   node.State = static_cast<uint8_t>(mode == CO_INVALID ? node.State & ~event::running : node.State | event::running);
   node.Nmt.Allowed = nmt::allowed_in(mode);
-  run(node, &Service::on_mode);
+  run<&Service::on_mode>(node);
   if (mode == CO_INVALID) {
     transmit::clear(node);
     node.Paused = 0;
