@@ -48,7 +48,7 @@ typedef struct CO_TMR_T {
   CO_TMR_MEM* First;       ///< running timers: elapsed ones, oldest first, then armed ones, by time
   struct CO_NODE_T* Node;  ///< owner
   CO_TMR_MEM* Pool;        ///< timers of the application: CO_NODE_SPEC.TmrMem, Max elements
-  CO_TMR_MEM* Free;        ///< unused timers of the pool
+  CO_TMR_MEM* Free;        ///< timers of the pool that were used before and are not now
   /// Link to the first armed timer: advanced by COTmrService(), while COTmrProcess() removes elapsed ones.
   CO_TMR_MEM** Armed;
   CO_TMR_MEM** End;  ///< link behind the last armed timer, if there is one
@@ -56,6 +56,7 @@ typedef struct CO_TMR_T {
   uint32_t Clock;    ///< clock of the driver when it was read last
   uint16_t Max;      ///< timers in the pool
   uint16_t IdStep;   ///< step between two generations of an id, a power of two
+  uint16_t Used;     ///< timers of the pool that have been used at least once
 } CO_TMR;
 
 /// Converts \a time, in units of 1/\a unit seconds (CO_TMR_UNIT_…), to ticks, rounded up, so that no timer expires

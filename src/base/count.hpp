@@ -7,11 +7,15 @@
 namespace co {
 
 // Increments a counter, which stays at its highest value.
-constexpr void count(uint32_t& counter) {
+#if USE_FAST_PATHS
+inline void count(uint32_t& counter) {
   const uint32_t next = counter + 1;
   if (next != 0) {
     counter = next;
   }
 }
+#else
+void count(uint32_t& counter);
+#endif
 
 }  // namespace co

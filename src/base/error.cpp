@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 
+#include "base/count.hpp"
+
 namespace co {
+
+#if !USE_FAST_PATHS
+void count(uint32_t& counter) {
+  const uint32_t next = counter + 1;
+  if (next != 0) {
+    counter = next;
+  }
+}
+#endif
 
 void error::report(CO_NODE& node, CO_ERR err, uint32_t key) {
   if (err != CO_ERR_NONE) {

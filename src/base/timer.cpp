@@ -280,19 +280,11 @@ bool has_work(const CO_TMR& t) { return has_due(t); }
 
 CO_TMR_MEM* find(const CO_TMR& t, int16_t id) {
   const uint32_t number = static_cast<uint32_t>(id) & (t.IdStep - 1U);
-  if (number >= t.Max) {
+  if (number >= t.Used) {
     return nullptr;
   }
   CO_TMR_MEM& timer = t.Pool[number];
   return timer.Running != 0 && timer.Id == id ? &timer : nullptr;
-}
-
-CO_TMR_MEM* take_free(CO_TMR& t) {
-  CO_TMR_MEM* const timer = t.Free;
-  if (timer != nullptr) {
-    t.Free = timer->Next;
-  }
-  return timer;
 }
 
 uint16_t power_of_two(unsigned num) {
@@ -301,6 +293,22 @@ uint16_t power_of_two(unsigned num) {
     power *= 2;
   }
   return static_cast<uint16_t>(power);
+}
+
+// Returns a timer of the pool that is not in use, or null. Timers that were never used are initialised now, so that
+// programs without timers of their own do not contain it.
+CO_TMR_MEM* take_free(CO_TMR& t) {
+  CO_TMR_MEM* timer = t.Free;
+  if (timer != nullptr) {
+    t.Free = timer->Next;
+  } else if (t.Used < t.Max) {
+    timer = &t.Pool[t.Used];
+    *timer = {};
+    timer->Id = t.Used;
+    timer->Pooled = 1;
+    ++t.Used;
+  }
+  return timer;
 }
 
 }  // namespace
@@ -394,14 +402,6 @@ void COTmrInit(CO_TMR* tmr, CO_NODE* node, CO_TMR_MEM* mem, uint16_t num, uint32
   const unsigned max = mem == nullptr ? 0U : (num > INT16_MAX ? INT16_MAX : num);
   tmr->Max = static_cast<uint16_t>(max);
   tmr->IdStep = tmr::power_of_two(max);
-  for (unsigned n = max; n != 0; --n) {
-    CO_TMR_MEM& timer = mem[n - 1];
-    timer = {};
-    timer.Id = static_cast<uint16_t>(n - 1U);
-    timer.Pooled = 1;
-    timer.Next = tmr->Free;
-    tmr->Free = &timer;
-  }
   tmr->Clock = port::now(*node);
 }
 

@@ -99,16 +99,9 @@ CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value) {
   return access_value(&dict, key, &value, sizeof value, obj::read);
 }
 
-uint32_t read_cob_id(CO_DICT& dict, uint32_t key, uint32_t otherwise) {
-  uint32_t value = 0;
-  if (read_u32(dict, key, value) != CO_ERR_NONE) {
-    value = otherwise;
-  }
+uint32_t read_cob_id(CO_NODE& node, uint32_t key, uint32_t otherwise) {
+  const uint32_t value = read_number(node, key, sizeof value, otherwise);
   return wire::is_usable(value) ? value : wire::cob_invalid;
-}
-
-CO_ERR read_u16(CO_DICT& dict, uint32_t key, uint16_t& value) {
-  return access_value(&dict, key, &value, sizeof value, obj::read);
 }
 
 CO_ERR write_u32(CO_DICT& dict, uint32_t key, uint32_t value) {

@@ -76,13 +76,12 @@ inline constexpr CO_OBJ_INIT_FUNC checked_by = USE_DICT_CHECK != 0 ? init<rule> 
 
 // Returns the number in an entry; otherwise if there is no entry, or one with another width. width: bytes, up to 4
 [[nodiscard]] uint32_t read_number(CO_NODE_T& node, uint32_t key, uint32_t width, uint32_t otherwise);
+// Reads a value of exactly 4 bytes through the type of its entry. Returns CO_ERR_OBJ_NOT_FOUND, CO_ERR_OBJ_SIZE or the
+// error of the type.
 [[nodiscard]] CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value);
 // Returns the COB-ID of an object; if the object cannot be read, the COB-ID given as otherwise. Returns
 // wire::cob_invalid if that COB-ID cannot be used (wire::is_usable()).
-[[nodiscard]] uint32_t read_cob_id(CO_DICT& dict, uint32_t key, uint32_t otherwise);
-// Reads a value of exactly 2 bytes (read_u32(): 4 bytes) through the type of its entry. Returns CO_ERR_OBJ_NOT_FOUND,
-// CO_ERR_OBJ_SIZE or the error of the type.
-[[nodiscard]] CO_ERR read_u16(CO_DICT& dict, uint32_t key, uint16_t& value);
+[[nodiscard]] uint32_t read_cob_id(CO_NODE_T& node, uint32_t key, uint32_t otherwise);
 // Writes a value of 4 bytes, like read_u32() reads it. Unlike CODictWrLong(), does not run deferred work.
 CO_ERR write_u32(CO_DICT& dict, uint32_t key, uint32_t value);
 

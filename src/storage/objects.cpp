@@ -21,9 +21,7 @@ bool is_number_of_groups(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) == 0; }
 
 // Returns whether the entry stands for all groups: sub-index 1, if there are others.
 bool is_all(CO_NODE& node, const CO_OBJ& obj) {
-  uint8_t last = 0;
-  const uint32_t number = CO_DEV(CO_GET_IDX(obj.Key), 0);
-  return CO_GET_SUB(obj.Key) == 1 && CODictRdByte(&node.Dict, number, &last) == CO_ERR_NONE && last > 1;
+  return CO_GET_SUB(obj.Key) == 1 && dict::read_number(node, CO_DEV(CO_GET_IDX(obj.Key), 0), sizeof(uint8_t), 0) > 1;
 }
 
 // Calls a function for each group that an entry stands for.

@@ -172,10 +172,8 @@ bool may_be_in_group(CO_NODE& node, const CO_OBJ& obj) {
 
 Groups::Groups(CO_NODE& node, uint16_t index) : node_(node), entry_(nullptr), index_(index), sub_(1), last_(0) {
   constexpr uint8_t highest = 127;
-  if (CODictRdByte(&node.Dict, CO_DEV(index, 0), &last_) != CO_ERR_NONE) {
-    last_ = 1;
-  }
-  last_ = last_ < highest ? last_ : highest;
+  const uint32_t last = dict::read_number(node, CO_DEV(index, 0), sizeof last_, 1);
+  last_ = static_cast<uint8_t>(last < highest ? last : highest);
   sub_ = last_ > 1 ? 2 : 1;
 }
 

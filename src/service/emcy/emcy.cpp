@@ -212,7 +212,8 @@ void init(CO_NODE& node) {
     number = 0;
   }
   init_history(node);
-  (void)CODictRdByte(&node.Dict, key_register, &node.Emcy.Register);
+  node.Emcy.Register =
+      static_cast<uint8_t>(dict::read_number(node, key_register, sizeof(uint8_t), node.Emcy.Register));
   update_register(node);
   if (USE_DICT_CHECK != 0 && node.Emcy.Root != nullptr && dict::find(node.Dict, key_cob_id) == nullptr) {
     error::report(node, CO_ERR_CFG_1014_0, key_cob_id);
@@ -294,7 +295,7 @@ void send_queued(CO_NODE& node) {
 }
 
 uint32_t identifier(CO_NODE& node) {
-  const uint32_t cob_id = dict::read_cob_id(node.Dict, key_cob_id, wire::cob_invalid);
+  const uint32_t cob_id = dict::read_cob_id(node, key_cob_id, wire::cob_invalid);
   return cob_id != wire::cob_invalid ? wire::frame_id(cob_id) : wire::no_frame;
 }
 

@@ -24,10 +24,7 @@ void remove_first(CO_EMCY& emcy) {
 }
 
 // Returns the inhibit time in units of 100 µs; 0: none.
-unsigned inhibit_time(CO_NODE& node) {
-  uint16_t time = 0;
-  return dict::read_u16(node.Dict, key_inhibit, time) == CO_ERR_NONE ? time : 0;
-}
+unsigned inhibit_time(CO_NODE& node) { return dict::read_number(node, key_inhibit, sizeof(uint16_t), 0); }
 
 void on_time(void* node_pointer);
 

@@ -16,10 +16,7 @@ namespace {
 
 constexpr uint32_t identifier = static_cast<uint32_t>(wire::CobId::gfc);
 
-bool is_used(CO_NODE& node) {
-  uint8_t used = 0;
-  return CODictRdByte(&node.Dict, CO_DEV(0x1300, 0), &used) == CO_ERR_NONE && used == 1;
-}
+bool is_used(CO_NODE& node) { return dict::read_number(node, CO_DEV(0x1300, 0), sizeof(uint8_t), 0) == 1; }
 
 bool is_operational(const CO_NODE& node) { return event::is_allowed(node, CO_PDO_ALLOWED); }
 

@@ -15,11 +15,9 @@ namespace {
 
 // Returns the life time in ticks; 0: no life guarding. [301:7.5.2.11, 7.5.2.12]
 uint32_t life_time(CO_NODE& node) {
-  uint16_t guard_time = 0;  // ms
-  uint8_t factor = 0;
-  const bool exists = CODictRdWord(&node.Dict, CO_DEV(0x100C, 0), &guard_time) == CO_ERR_NONE &&
-                      CODictRdByte(&node.Dict, CO_DEV(0x100D, 0), &factor) == CO_ERR_NONE;
-  return exists ? tmr::ticks(node.Tmr, uint32_t{guard_time} * factor, CO_TMR_UNIT_1MS) : 0;
+  const uint32_t guard_time = dict::read_number(node, CO_DEV(0x100C, 0), sizeof(uint16_t), 0);  // ms
+  const uint32_t factor = dict::read_number(node, CO_DEV(0x100D, 0), sizeof(uint8_t), 0);
+  return tmr::ticks(node.Tmr, guard_time * factor, CO_TMR_UNIT_1MS);
 }
 
 // Returns whether a heartbeat is produced, which replaces guarding. [301:7.2.8.2.2.1]

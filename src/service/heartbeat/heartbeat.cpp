@@ -18,7 +18,7 @@ void send(void* node_pointer) {
   transmit::send_latest(node, wire::error_control(node.NodeId, node.Nmt.Mode));
 }
 
-uint32_t period(const CO_NODE& node, uint16_t ms) { return tmr::ticks(node.Tmr, ms, CO_TMR_UNIT_1MS); }
+uint32_t period(const CO_NODE& node, uint32_t ms) { return tmr::ticks(node.Tmr, ms, CO_TMR_UNIT_1MS); }
 
 void restart(CO_NODE& node, uint32_t ticks) {
   if (ticks == 0) {
@@ -60,9 +60,8 @@ void on_mode(CO_NODE& node) {
     tmr::stop(node.Tmr, node.HbProdTmr);
     return;
   }
-  uint16_t ms = 0;
-  if (!tmr::is_running(node.HbProdTmr) && dict::read_u16(node.Dict, CO_DEV(0x1017, 0), ms) == CO_ERR_NONE) {
-    restart(node, period(node, ms));
+  if (!tmr::is_running(node.HbProdTmr)) {
+    restart(node, period(node, dict::read_number(node, CO_DEV(0x1017, 0), sizeof(uint16_t), 0)));
   }
 }
 

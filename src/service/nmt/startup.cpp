@@ -11,8 +11,7 @@ namespace {
 
 // Returns whether 1F80h exists and requests the self-start.
 bool starts_itself(CO_NODE& node) {
-  uint32_t startup = 0;
-  return dict::read_u32(node.Dict, CO_DEV(0x1F80, 0), startup) == CO_ERR_NONE && (startup & CO_NMT_STARTUP_STAY) == 0;
+  return (dict::read_number(node, CO_DEV(0x1F80, 0), sizeof(uint32_t), CO_NMT_STARTUP_STAY) & CO_NMT_STARTUP_STAY) == 0;
 }
 
 }  // namespace

@@ -27,11 +27,9 @@ bool are_bases(uint32_t tx, uint32_t rx) {
 Configuration read_configuration(CO_NODE& node, uint16_t number) {
   constexpr uint8_t last_node_id = 127;
   Configuration found = {wire::no_frame, wire::no_frame, 0, CO_CSDO_STATE_INVALID};
-  const uint32_t tx = dict::read_cob_id(node.Dict, CO_DEV(0x1280U + number, 1), wire::cob_invalid);
-  const uint32_t rx = dict::read_cob_id(node.Dict, CO_DEV(0x1280U + number, 2), wire::cob_invalid);
-  if (CODictRdByte(&node.Dict, CO_DEV(0x1280U + number, 3), &found.node_id) != CO_ERR_NONE) {
-    found.node_id = 0;
-  }
+  const uint32_t tx = dict::read_cob_id(node, CO_DEV(0x1280U + number, 1), wire::cob_invalid);
+  const uint32_t rx = dict::read_cob_id(node, CO_DEV(0x1280U + number, 2), wire::cob_invalid);
+  found.node_id = static_cast<uint8_t>(dict::read_number(node, CO_DEV(0x1280U + number, 3), sizeof found.node_id, 0));
   const uint8_t relative = are_bases(tx, rx) ? found.node_id : 0;
   const bool has_id = relative != 0 || !are_bases(tx, rx);
   if (tx == wire::cob_invalid || rx == wire::cob_invalid || !has_id || relative > last_node_id) {

@@ -134,7 +134,7 @@ uint32_t send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*
 // [301:7.3.5]
 [[gnu::noinline]] uint32_t identifier(CO_NODE& node, uint16_t number, uint8_t sub, wire::CobId base) {
   const uint32_t cob_id =
-      dict::read_cob_id(node.Dict, CO_DEV(0x1200U + number, sub), number == 0 ? base + node.NodeId : wire::cob_invalid);
+      dict::read_cob_id(node, CO_DEV(0x1200U + number, sub), number == 0 ? base + node.NodeId : wire::cob_invalid);
   return cob_id == wire::cob_invalid ? wire::no_frame : wire::frame_id(cob_id);
 }
 

@@ -153,10 +153,10 @@ uint32_t resolve(CO_NODE& node, unsigned number) {
 uint32_t key_of_signature(unsigned number) { return CO_DEV(signatures, number + 1); }
 
 bool has_signature(CO_NODE& node, unsigned number) {
+  constexpr uint32_t no_signature = UINT16_MAX + 1U;
   uint16_t expected = 0;
-  uint16_t stored = 0;
   return compute_signature(node, number, expected) == CO_ERR_NONE &&
-         dict::read_u16(node.Dict, key_of_signature(number), stored) == CO_ERR_NONE && stored == expected;
+         dict::read_number(node, key_of_signature(number), sizeof expected, no_signature) == expected;
 }
 
 // Reads or writes a mapped object. data: its bytes in the order of the bus

@@ -26,8 +26,7 @@ constexpr uint8_t highest_overflow = 240;
 constexpr uint32_t producer = CO_SYNC_COBID_ON;
 
 uint32_t read(CO_NODE& node, uint16_t index) {
-  uint32_t value = 0;
-  return dict::read_u32(node.Dict, CO_DEV(index, 0), value) == CO_ERR_NONE ? value : 0;
+  return dict::read_number(node, CO_DEV(index, 0), sizeof(uint32_t), 0);
 }
 
 uint32_t ticks(const CO_NODE& node, uint32_t time) { return tmr::ticks(node.Tmr, time, microseconds); }
@@ -181,11 +180,10 @@ CO_ERR write_counter(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 void init(CO_NODE& node) {
   CO_SYNC& sync = node.Sync;
-  uint8_t overflow = 0;
   sync.Counter = 0;
   sync.Wrong = 0;
   sync.Window = ticks(node, read(node, 0x1007));
-  sync.Overflow = CODictRdByte(&node.Dict, CO_DEV(0x1019, 0), &overflow) == CO_ERR_NONE ? overflow : 0;
+  sync.Overflow = static_cast<uint8_t>(dict::read_number(node, CO_DEV(0x1019, 0), sizeof sync.Overflow, 0));
   open_window(node);
   configure(node);
   if (sync.Produces != 0 && is_too_short(read(node, cycle_index))) {

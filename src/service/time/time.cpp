@@ -51,9 +51,8 @@ void run_producer(CO_NODE& node) {
 
 // Bit 31 of 1012h selects the consumer (CO_TIME_COBID_CONSUME); it does not mean that the COB-ID is not valid.
 void init(CO_NODE& node) {
-  uint32_t cob_id = 0;
-  if (dict::read_u32(node.Dict, CO_DEV(0x1012, 0), cob_id) != CO_ERR_NONE ||
-      !wire::is_usable(cob_id & ~CO_TIME_COBID_CONSUME)) {
+  uint32_t cob_id = dict::read_number(node, CO_DEV(0x1012, 0), sizeof cob_id, 0);
+  if (!wire::is_usable(cob_id & ~CO_TIME_COBID_CONSUME)) {
     cob_id = 0;
   }
   const uint32_t identifier = wire::frame_id(cob_id);
