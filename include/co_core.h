@@ -165,6 +165,8 @@ typedef struct CO_NODE_T {
   uint16_t TPdoFirst;      ///< head of the list of synchronous TPDOs, linked by CO_TPDO.Next
   uint16_t TPdoMarked;     ///< number of the first TPDO that is marked for transmission
   const CO_NODE_EXT* Ext;  ///< settings of CONodeInitEx(), or defaults; not null
+  /// Resolves all mappings again after CODictInit(), which sets it.
+  void (*Remap)(struct CO_NODE_T* node);
   CO_TX_QUEUE TxQueue;     ///< transmit queue
   CO_IF If;                ///< drivers, handle for co_if.h
   CO_OBJ* RequestObj;      ///< object of the SDO request that is being processed; null: none

@@ -140,6 +140,7 @@ typedef struct CO_EMCY_HIST_T {  // ring of entries of 1003h
   uint8_t Max;                   // number of entries
   uint8_t Num;                   // number of entries in use
   uint8_t Off;                   // sub-index of the newest entry
+  void (*Add)(struct CO_NODE_T* node, uint32_t entry);  // adds an entry, set by the type of 1003h; null: no history
 } CO_EMCY_HIST;
 
 typedef struct CO_EMCY_MSG_T {  // bytes of a message, the first one lowest

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dictionary/dict.hpp"
 
-#include "base/events.hpp"
 #include "co_core.h"
-#include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
 #include "wire/bytes.hpp"
 #include "wire/cob_id.hpp"
@@ -61,6 +59,22 @@ CO_ERR access_value(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
 
 }  // namespace
 
+CO_ERR set_table(CO_DICT& dict, CO_NODE& node, CO_OBJ* root, uint16_t max) {
+  dict = {};
+  dict.Node = &node;
+  dict.Root = root;
+  dict.Num = count_entries(root, max);
+  dict.End = end_with_defaults(root, dict.Num, max);
+  const CO_ERR err = check(dict);
+  if (err != CO_ERR_NONE) {
+    dict.Num = 0;
+  }
+  if (USE_FAST_PATHS != 0 && dict.Num != 0) {
+    prepare_search(dict);
+  }
+  return err;
+}
+
 void set_power_on_values(CO_NODE& node, CO_NMT_RESET type) {
   CO_OBJ* const end = node.Dict.End;
   if (end != nullptr) {
@@ -113,31 +127,6 @@ CO_ERR write_u32(CO_DICT& dict, uint32_t key, uint32_t value) {
 using namespace co;
 
 extern "C" {
-
-int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
-  if (cod == nullptr || node == nullptr || root == nullptr || max == 0) {
-    return -1;
-  }
-  *cod = {};
-  cod->Node = node;
-  cod->Root = root;
-  cod->Num = dict::count_entries(root, max);
-  cod->End = dict::end_with_defaults(root, cod->Num, max);
-  const CO_ERR err = dict::check(*cod);
-  if (err != CO_ERR_NONE) {
-    cod->Num = 0;
-  }
-  if (USE_FAST_PATHS != 0 && cod->Num != 0) {
-    dict::prepare_search(*cod);
-  }
-  access::close_moved(*node);  // SDO transfers whose entry is no longer at the same address
-  event::defer(*node, event::remap);
-  event::run_deferred(*node);
-  if (err != CO_ERR_NONE) {
-    return -1;
-  }
-  return static_cast<int16_t>(cod->Num < INT16_MAX ? cod->Num : INT16_MAX);
-}
 
 CO_ERR CODictObjInit(CO_DICT* cod, CO_NODE_T* node) {
   if (cod == nullptr || node == nullptr) {

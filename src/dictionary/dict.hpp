@@ -19,6 +19,9 @@ void prepare_search(CO_DICT& dict);
 // search.
 [[nodiscard]] uint32_t first_from(const CO_OBJ* root, uint32_t num, uint32_t key);
 
+// Replaces the table. Returns the error of check(); the dictionary is empty then. max: length of the array root
+[[nodiscard]] CO_ERR set_table(CO_DICT& dict, CO_NODE_T& node, CO_OBJ* root, uint16_t max);
+
 // Sets the variables that the table's end mark lists (CO_DEFAULTS) to their default values.
 void set_power_on_values(CO_NODE_T& node, CO_NMT_RESET type);
 

@@ -7,6 +7,7 @@
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "co_core.h"
 #include "dictionary/dict.hpp"
 #include "hal/port.hpp"
@@ -109,7 +110,8 @@ void reconfigure(CO_NODE& node, bool entries_have_moved) {
   {
     const event::Serving serving(node);
     if (entries_have_moved) {
-      services::remap(node);
+      CO_ASSERT(node.Remap != nullptr);
+      node.Remap(&node);
     }
     services::configure(node);
   }
@@ -408,7 +410,7 @@ void node::init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext,
     return;
   }
   services::begin_lss(*node);
-  if (CODictInit(&node->Dict, node, spec->Dict, spec->DictLen) < 0) {
+  if (dict::set_table(node->Dict, *node, spec->Dict, spec->DictLen) != CO_ERR_NONE) {
     error::report(*node, CO_ERR_DICT_INIT, dict::fault_key_of(node->Dict));
     return;
   }

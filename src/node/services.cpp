@@ -213,10 +213,10 @@ void send_emcy(CO_NODE& node) { emcy::send_queued(node); }
 
 void configure(CO_NODE& node) { run<&Service::configure>(node); }
 
-void remap(CO_NODE& node) {
-  pdo::remap(node);
+void remap(CO_NODE* node) {
+  pdo::remap(*node);
 #if CO_SRDO_N > 0
-  srdo::on_remap(node);
+  srdo::on_remap(*node);
 #endif
 }
 

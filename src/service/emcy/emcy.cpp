@@ -142,6 +142,12 @@ void finish_call(CO_NODE& node) {
 
 void report_gone(CO_NODE& node, uint32_t detail) { post(node, wire::emcy_message(CO_EMCY_CODE_NO_ERR, detail)); }
 
+void add_to_history(CO_NODE& node, uint32_t entry) {
+  if (node.Emcy.Hist.Add != nullptr) {
+    node.Emcy.Hist.Add(&node, entry);
+  }
+}
+
 // Adds a fault to the history and sends its message. The first two bytes of the manufacturer-specific error field are 0
 // in both, detail is in the others. [E11]
 void report_fault(CO_NODE& node, Fault fault, uint32_t detail) {

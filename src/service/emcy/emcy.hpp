@@ -46,7 +46,6 @@ void withdraw(CO_NODE& node, uint32_t identifier);
 
 // 1003h. Its entries are those whose types were initialised. init_history() empties it if their number has changed.
 void init_history(CO_NODE& node);
-void add_to_history(CO_NODE& node, uint32_t entry);
 void clear_history(CO_NODE& node);
 
 // Processes a message of the node with this sub-index in 1028h. Returns false if it is malformed.

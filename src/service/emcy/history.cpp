@@ -27,6 +27,25 @@ uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) {
   return uintptr_t{obj->Data} == 0 ? 0 : 4;
 }
 
+// Adds an error to the ring. Value of CO_EMCY_HIST.Add, so that only programs with 1003h link it.
+void add(CO_NODE* node_pointer, uint32_t entry) {
+  CO_NODE& node = *node_pointer;
+  CO_EMCY_HIST& history = node.Emcy.Hist;
+  if (history.Max == 0) {
+    return;
+  }
+  const unsigned next = history.Off + 1U;
+  history.Off = static_cast<uint8_t>(next <= history.Max ? next : 1);
+  if (history.Num < history.Max) {
+    ++history.Num;
+  }
+  const uint32_t key = CO_DEV(index, history.Off);
+  CO_OBJ* const place = dict::find(node.Dict, key);
+  const CO_ERR err =
+      place == nullptr ? CO_ERR_OBJ_NOT_FOUND : CO_TUNSIGNED32->Write(place, &node, &entry, sizeof entry);
+  error::report(node, err, key);
+}
+
 // Init function: counts the entries from sub-index 1 on, without a gap, in Found.
 CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
   const uint8_t sub = CO_GET_SUB(obj->Key);
@@ -36,6 +55,7 @@ CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
     return err == CO_ERR_NONE && !has_entries ? CO_ERR_TYPE_INIT : err;
   }
   uint8_t& found = node->Emcy.Hist.Found;
+  node->Emcy.Hist.Add = add;
   const bool has_data = uintptr_t{obj->Data} != 0;
   found = has_data && (sub == 1 || sub == found + 1) ? sub : found;
   return dict::check_type(*obj, *node, rules::emcy_history);
@@ -79,26 +99,11 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 void init_history(CO_NODE& node) {
   CO_EMCY_HIST& history = node.Emcy.Hist;
   if (history.Found != history.Max) {
-    history = {0, history.Found, 0, 0};
+    history.Max = history.Found;
+    history.Num = 0;
+    history.Off = 0;
   }
   history.Found = 0;
-}
-
-void add_to_history(CO_NODE& node, uint32_t entry) {
-  CO_EMCY_HIST& history = node.Emcy.Hist;
-  if (history.Max == 0) {
-    return;
-  }
-  const unsigned next = history.Off + 1U;
-  history.Off = static_cast<uint8_t>(next <= history.Max ? next : 1);
-  if (history.Num < history.Max) {
-    ++history.Num;
-  }
-  const uint32_t key = CO_DEV(index, history.Off);
-  CO_OBJ* const place = dict::find(node.Dict, key);
-  const CO_ERR err =
-      place == nullptr ? CO_ERR_OBJ_NOT_FOUND : CO_TUNSIGNED32->Write(place, &node, &entry, sizeof entry);
-  error::report(node, err, key);
 }
 
 void clear_history(CO_NODE& node) { node.Emcy.Hist.Num = 0; }
