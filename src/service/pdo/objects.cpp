@@ -109,9 +109,7 @@ CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 bool fits_mapping([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_OBJ& obj, [[maybe_unused]] uint8_t type) {
 #if USE_MPDO
   const auto mapping = static_cast<uint16_t>(CO_GET_IDX(obj.Key) + pdo::from_communication_to_mapping);
-  uint8_t number = 0;
-  const bool is_multiplexed =
-      CODictRdByte(&node.Dict, CO_DEV(mapping, 0), &number) == CO_ERR_NONE && number >= mpdo::sam;
+  const bool is_multiplexed = pdo::read_number(node, CO_DEV(mapping, 0), sizeof(uint8_t), 0) >= mpdo::sam;
   return !is_multiplexed || pdo::is_event_driven(type) || !exists(node, obj);
 #else
   return true;
@@ -201,9 +199,9 @@ CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size != sizeof(uint32_t)) {
     return CO_ERR_BAD_ARG;
   }
-  uint8_t num = 0;
-  const CO_ERR known = CODictRdByte(&node->Dict, CO_DEV(CO_GET_IDX(obj->Key), 0), &num);
-  if (exists(*node, *obj) || known != CO_ERR_NONE || num != 0) {
+  constexpr uint8_t unknown = 1;
+  const uint32_t num = pdo::read_number(*node, CO_DEV(CO_GET_IDX(obj->Key), 0), sizeof(uint8_t), unknown);
+  if (num != 0 || exists(*node, *obj)) {
     return CO_ERR_OBJ_ACC;
   }
   const auto value = value_in<uint32_t>(buffer);
