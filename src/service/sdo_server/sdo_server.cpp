@@ -112,7 +112,7 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, 
     return true;
   }
   const bool in_block = is_segment(channel, frame);
-  if (in_block && !store_in_block(channel, frame)) {
+  if (has_block && in_block && !store_in_block(channel, frame)) {
     return true;
   }
   if (!in_block) {
