@@ -140,6 +140,10 @@ bool holds(const CO_IF_FRM& frame, const Layout& layout, const std::uint8_t* mem
 }
 
 void start(CO_MODE mode) {
+  static CO_NODE_EXT settings;  // must live as long as the node
+  settings.Size = sizeof settings;
+  settings.Can = &can;
+  settings.Timer = &timer;
   std::sort(entries, entries + number_of_entries, [](const CO_OBJ& a, const CO_OBJ& b) { return a.Key < b.Key; });
   CO_NODE_SPEC spec{};
   spec.NodeId = node_id;
@@ -150,9 +154,8 @@ void start(CO_MODE mode) {
   spec.TmrMem = timers;
   spec.TmrNum = most_timers;
   spec.TmrFreq = ticks_per_second;
-  spec.Drv = &drivers;
   spec.SdoBuf = sdo_buffer;
-  CONodeInit(&node, &spec);
+  CONodeInitCtx(&node, &spec, &settings);
   CONodeStart(&node);
   CONmtSetMode(&node.Nmt, mode);
   if (CONodeGetErr(&node) != CO_ERR_NONE || CONmtGetMode(&node.Nmt) != mode) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Classic drivers that store frames and times in memory. Their instructions are counted, too.
+// Drivers that store frames and times in memory. Their instructions are counted, too.
 #include "drivers.hpp"
 
 #include "device.hpp"
@@ -17,12 +17,12 @@ std::size_t received_next = 0;
 CO_IF_FRM sent_frames[places];
 std::size_t sent_num = 0;
 
-std::uint32_t left = 0;
+std::uint32_t clock_ticks = 0;
 
-void nothing() {}
-void set_rate(std::uint32_t) {}
+void nothing(void*) {}
+void set_rate(void*, std::uint32_t) {}
 
-std::int16_t read(CO_IF_FRM* to) {
+std::int16_t read(void*, CO_IF_FRM* to) {
   if (received_next == received_num) {
     return 0;
   }
@@ -30,22 +30,17 @@ std::int16_t read(CO_IF_FRM* to) {
   return sizeof *to;
 }
 
-std::int16_t send(CO_IF_FRM* from) {
+std::int16_t send(void*, const CO_IF_FRM* from) {
   sent_frames[sent_num++ % places] = *from;
   return sizeof *from;
 }
 
-void reload(std::uint32_t ticks) { left = ticks; }
-std::uint32_t delay() { return left; }
-void stop() { left = 0; }
-std::uint8_t update() { return left == 0 ? 1 : 0; }
-
-const CO_IF_CAN_DRV can = {nothing, set_rate, read, send, nothing, nothing};
-const CO_IF_TIMER_DRV timer = {set_rate, reload, delay, stop, nothing, update};
+std::uint32_t now(void*) { return clock_ticks; }
 
 }  // namespace
 
-CO_IF_DRV drivers = {&can, &timer, nullptr};
+const CO_IF_CAN_DRV_EX can = {nothing, set_rate, read, send, nothing, nothing, nullptr, nullptr};
+const CO_IF_TIMER_DRV_EX timer = {set_rate, now, nullptr};
 
 CO_IF_FRM frame(std::uint32_t identifier, std::initializer_list<std::uint8_t> data) {
   CO_IF_FRM made = {identifier, {}, 0};
@@ -80,16 +75,16 @@ bool is_same(const CO_IF_FRM& a, const CO_IF_FRM& b) {
 
 bool has_sent(const CO_IF_FRM& frame) { return sent_num == 1 && is_same(sent_frames[0], frame); }
 
-void elapse() { left = 0; }
+void elapse() { clock_ticks += CONodeNextDeadline(&node); }
 
 void advance(std::uint32_t ticks) {
-  while (left != 0 && left <= ticks) {
-    ticks -= left;
-    left = 0;
+  for (std::uint32_t wait = CONodeNextDeadline(&node); wait <= ticks; wait = CONodeNextDeadline(&node)) {
+    ticks -= wait;
+    clock_ticks += wait;
     COTmrService(&node.Tmr);
     COTmrProcess(&node.Tmr);
   }
-  left -= left != 0 ? ticks : 0;
+  clock_ticks += ticks;
 }
 
 }  // namespace bench

@@ -7,6 +7,7 @@
 
 namespace bench {
 
-extern CO_IF_DRV drivers;
+extern const CO_IF_CAN_DRV_EX can;
+extern const CO_IF_TIMER_DRV_EX timer;
 
 }  // namespace bench

@@ -188,7 +188,7 @@ TEST_CASE("fixture: sending while objects are locked fails" * doctest::should_fa
 
 TEST_CASE("fixture: a timer that is neither armed nor free fails" * doctest::should_fail()) {
   Fixture node;
-  node.call([&] { node->Tmr.Free = node->Tmr.Free->Next; });
+  node.call([&] { ++node->Tmr.Used; });
 }
 
 TEST_CASE("fixture: a stack timer that is armed although unused fails" * doctest::should_fail()) {
