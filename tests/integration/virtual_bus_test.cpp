@@ -57,7 +57,7 @@ class Device {
     spec.DictLen = static_cast<std::uint16_t>(od_.size());
     spec.TmrFreq = ticks_per_second;
     spec.SdoBuf = sdo_memory_.data();
-    CONodeInitEx(&node, &spec, &ext_);
+    CONodeInitCtx(&node, &spec, &ext_);
     CHECK(CONodeGetErr(&node) == CO_ERR_NONE);
     CONodeStart(&node);
   }

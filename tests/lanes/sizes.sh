@@ -79,6 +79,17 @@ size_of_node() {  # CPU PRESET
   python3 "$root/tests/sizes/modules.py" "$program.map" >"$of-$1-$2-modules" || return
   size_lines "$2" "$program" "$(awk '/^all modules/ { print $NF }' "$of-$1-$2-modules")" >>"$of-$1"
   size_lines "$2" "$program-lto" >>"$of-$1-lto"
+  [ "$2" != minimal ] || size_with_classic_drivers "$1" "$2"
+}
+
+# The flash of the stack with adapters for classic drivers.
+size_with_classic_drivers() {  # CPU PRESET
+  local program=$build/sizes-$1/classic-$2
+  compile_c whole_node.c "$program.o" "$(preset_flag "$2")" -DNODE_IS_SMALLEST=1 -DNODE_IS_CLASSIC=1 "${lto[@]}" \
+    >"$of.log" 2>&1 && link_node "$(objects_of "$1" "$2")" "$program" "" -fno-lto -Wl,-Map="$program.map" ||
+    { fail "link of $2 with classic drivers for $1" "$of.log"; return 1; }
+  printf '%s with classic drivers, flash of the stack alone\t%d\n' "$2" \
+    "$(python3 "$root/tests/sizes/modules.py" "$program.map" | awk '/^all modules/ { print $NF }')" >>"$of-$1"
 }
 
 # Links a program. With EVERYTHING all functions that an application may call are kept.

@@ -99,6 +99,17 @@ void with_each_failure(const Function& function) {
   }
 }
 
+TEST_CASE("CONodeInitCtx: does not use classic drivers") {
+  Device device;
+  CONodeInitCtx(&device.node, &device.spec, &device.ext);
+  CHECK(CONodeGetErr(&device.node) == CO_ERR_NODE_CAN);
+  CHECK(CONmtGetMode(&device.node.Nmt) == CO_INVALID);
+  CONodeInitCtx(&device.node, &device.spec, nullptr);
+  CHECK(CONodeGetErr(&device.node) == CO_ERR_NODE_CAN);
+  CONodeProcess(&device.node);
+  CHECK(read == 0);
+}
+
 TEST_CASE("failed initialisation: the node does not start, stops and processes nothing") {
   with_each_failure([](CO_NODE& node) {
     CONodeStart(&node);
