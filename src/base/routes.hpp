@@ -25,6 +25,9 @@ enum class Service : uint8_t {
 #if USE_TIME
   time,
 #endif
+#if USE_MPDO
+  mpdo,
+#endif
 #if CO_RPDO_N > 0
   rpdo,
 #endif

@@ -18,6 +18,7 @@
 #include "service/lss/lss.hpp"
 #include "service/lss/master.hpp"
 #include "service/nmt/nmt.hpp"
+#include "service/pdo/mpdo.hpp"
 #include "service/pdo/pdo.hpp"
 #include "service/sdo_client/sdo_client.hpp"
 #include "service/sdo_server/sdo_server.hpp"
@@ -35,13 +36,9 @@ bool no_frames(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
 #if CO_TPDO_N > 0
 // RPDOs and TPDOs are initialised together, by the RPDOs if there are any.
 constexpr auto init_tpdos = CO_RPDO_N > 0 ? nullptr : pdo::init;
-#if USE_MPDO
-constexpr uint16_t mpdo_streams = 1;
-constexpr auto continue_mpdos = pdo::on_free;
-#else
-constexpr uint16_t mpdo_streams = 0;
-constexpr auto continue_mpdos = nullptr;
 #endif
+#if USE_MPDO
+constexpr auto receive_mpdo = CO_RPDO_N > 0 ? mpdo::on_frame : no_frames;
 #endif
 
 using Id = routes::Service;
@@ -72,12 +69,14 @@ constexpr Service table[] = {
 #if USE_TIME
     {Id::time, CO_TIME_ALLOWED, 0, time::init, time::on_frame, no_frames, time::on_mode, nullptr, nullptr},
 #endif
+#if USE_MPDO
+    {Id::mpdo, CO_PDO_ALLOWED, 1, mpdo::init, receive_mpdo, no_frames, nullptr, mpdo::on_free, nullptr},
+#endif
 #if CO_RPDO_N > 0
     {Id::rpdo, CO_PDO_ALLOWED, 0, pdo::init, pdo::on_frame, no_frames, pdo::on_mode_rpdos, nullptr, nullptr},
 #endif
 #if CO_TPDO_N > 0
-    {Id::tpdo, CO_PDO_ALLOWED, mpdo_streams, init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, continue_mpdos,
-     nullptr},
+    {Id::tpdo, CO_PDO_ALLOWED, 0, init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, nullptr, nullptr},
 #endif
 #if USE_GFC
     {Id::gfc, CO_PDO_ALLOWED, 0, gfc::init, gfc::on_frame, no_frames, nullptr, nullptr, nullptr},

@@ -5,7 +5,7 @@
 #include "od/list.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/list.hpp"
-#include "service/pdo/mpdo.hpp"
+#include "service/pdo/multiplex.hpp"
 #include "service/pdo/pdo.hpp"
 
 #if USE_OD

@@ -3,8 +3,10 @@
 
 #include "base/error.hpp"
 #include "base/timer.hpp"
+#include "co_assert.h"
 #include "dictionary/types/cob_id.hpp"
-#include "service/pdo/mpdo.hpp"
+#include "service/pdo/list.hpp"
+#include "service/pdo/multiplex.hpp"
 #include "service/pdo/pdo.hpp"
 #include "wire/cob_id.hpp"
 
@@ -31,19 +33,14 @@ Resolved resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map) {
   return num == 0 ? Resolved{CO_ERR_OBJ_MAP_LEN, 0} : resolve(node, mapping, num, map, MappedBy::designer);
 }
 
-#if CO_RPDO_N > 0 || CO_TPDO_N > 0
-
 namespace {
 
 [[gnu::noinline]] CO_PDO& pdo_at(CO_NODE& node, unsigned index) {
-#if CO_RPDO_N == 0
-  CO_PDO* const first = node.TPdo;
-#elif CO_TPDO_N == 0
-  CO_PDO* const first = node.RPdo;
-#else
-  CO_PDO* const first = direction_of(index) == Direction::transmit ? node.TPdo : node.RPdo;
-#endif
-  return first[number_of(index)];
+  const bool receives = CO_TPDO_N == 0 || (CO_RPDO_N != 0 && direction_of(index) == Direction::receive);
+  const Pdos pdos = receives ? rpdos(node) : tpdos(node);
+  CO_ASSERT(number_of(index) < pdos.num &&
+            direction_of(index) == (receives ? Direction::receive : Direction::transmit));
+  return pdos.first[number_of(index)];
 }
 
 void for_each(CO_NODE& node, void (*run)(CO_NODE& node, unsigned index)) {
@@ -112,7 +109,7 @@ bool may_exist(CO_NODE& node, CO_PDO& pdo, unsigned index, uint32_t cob_id) {
   uint32_t identifier = wire::no_frame;
   pdo.Type = static_cast<uint8_t>(read_number(node, CO_DEV(index, 2), sizeof pdo.Type, default_type));
   pdo.Map.Length = 0;
-  mpdo::set_mode(pdo.Map, 0);
+  mpdo::clear_mode(pdo.Map);
   __builtin_memset(pdo.Map.Transferred, 0, sizeof pdo.Map.Transferred);
   if ((cob_id & wire::cob_invalid) == 0 && may_exist(node, pdo, index, cob_id)) {
     identifier = wire::frame_id(cob_id);
@@ -122,7 +119,8 @@ bool may_exist(CO_NODE& node, CO_PDO& pdo, unsigned index, uint32_t cob_id) {
     return;
   }
   pdo.Own.Time = {read_time(node, CO_DEV(index, 3), CO_TMR_UNIT_100US), event};
-  begin_tpdo(pdo, number_of(index), identifier, (cob_id & CO_TPDO_COBID_REMOTE) == 0);
+  begin_tpdo(pdo, number_of(index), identifier,
+             (cob_id & CO_TPDO_COBID_REMOTE) == 0 ? Remote::answered : Remote::ignored);
 }
 
 }  // namespace
@@ -136,19 +134,9 @@ void configure(CO_NODE& node, unsigned index) {
 void init(CO_NODE& node) {
   node.RPdoFirst = 0;
   node.TPdoFirst = 0;
-#if USE_MPDO
-  node.Mpdo.Producer = 0;
-#endif
   for_each(node, init_one);
 }
 
 void remap(CO_NODE& node) { for_each(node, remap_one); }
-
-#else
-
-void configure(CO_NODE&, unsigned) {}
-void remap(CO_NODE&) {}
-
-#endif
 
 }  // namespace co::pdo

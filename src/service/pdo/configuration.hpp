@@ -48,12 +48,15 @@ void configure(CO_NODE& node, unsigned index);
 // Resolves the mapping of the PDO, which must have at least one entry.
 [[nodiscard]] Resolved resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map);
 
+// Remote requests of a TPDO: bit 30 of its COB-ID.
+enum class Remote : uint8_t { ignored, answered };
+
 // Stop the present operation of a PDO, and start the configured one. identifier: wire::no_frame if the PDO does not
 // exist; event: ticks
 void end_rpdo(CO_NODE& node, CO_PDO& pdo);
 void end_tpdo(CO_NODE& node, CO_PDO& pdo);
 void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, uint32_t event);
-void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, bool is_remote);
+void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, Remote requests);
 
 // Apply a change of sub-index 5 while the PDO exists: the deadline of an RPDO, the event timer of a TPDO.
 void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks);

@@ -2,7 +2,7 @@
 // Object scanner list and object dispatching list. [301:7.5.2.39-40]
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
-#include "service/pdo/mpdo.hpp"
+#include "service/pdo/mpdo_lists.hpp"
 #include "wire/mpdo.hpp"
 
 #if USE_MPDO
@@ -141,7 +141,7 @@ CO_ERR resolve_scan(CO_NODE& node) {
   CO_MPDO& mpdo = node.Mpdo;
   mpdo.ScanNum = 0;
   mpdo.NextObject = 0;
-  forget_marks(node);
+  clear_marks(node);
   __builtin_memset(mpdo.Transferred, 0, sizeof mpdo.Transferred);
   return resolve_entries<uint32_t>(node, 0x1FA0, 0x1FCF, add);
 }

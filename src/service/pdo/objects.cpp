@@ -5,7 +5,7 @@
 #include "dictionary/dict.hpp"
 #include "dictionary/types/cob_id.hpp"
 #include "service/pdo/configuration.hpp"
-#include "service/pdo/mpdo.hpp"
+#include "service/pdo/multiplex.hpp"
 #include "wire/cob_id.hpp"
 
 namespace {
@@ -106,14 +106,8 @@ CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 // Sub 2 --------------------------------------------------------------------------------------------------------------
 
 // Returns whether the type is allowed: a multiplex PDO that exists remains event-driven. [301:7.2.3.2]
-bool fits_mapping([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_OBJ& obj, [[maybe_unused]] uint8_t type) {
-#if USE_MPDO
-  const auto mapping = static_cast<uint16_t>(CO_GET_IDX(obj.Key) + pdo::from_communication_to_mapping);
-  const bool is_multiplexed = pdo::read_number(node, CO_DEV(mapping, 0), sizeof(uint8_t), 0) >= mpdo::sam;
-  return !is_multiplexed || pdo::is_event_driven(type) || !exists(node, obj);
-#else
-  return true;
-#endif
+bool fits_mapping(CO_NODE& node, const CO_OBJ& obj, uint8_t type) {
+  return pdo::is_event_driven(type) || !mpdo::is_selected(node, communication_of(obj)) || !exists(node, obj);
 }
 
 CO_ERR write_type(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
@@ -153,7 +147,7 @@ CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_BAD_ARG;
   }
   const auto value = value_in<uint16_t>(buffer);
-  [[maybe_unused]] const uint32_t ticks = pdo::ticks(*node, value, CO_TMR_UNIT_1MS);
+  const uint32_t ticks = pdo::ticks(*node, value, CO_TMR_UNIT_1MS);
   if (value != 0 && ticks == 0) {
     return CO_ERR_OBJ_RANGE;
   }
@@ -161,16 +155,11 @@ CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (err != CO_ERR_NONE || !is_configured(*obj)) {
     return err;
   }
-#if CO_TPDO_N > 0
   if (is_tpdo(*obj)) {
     pdo::change_event_time(*node, number_of(*obj), ticks);
-  }
-#endif
-#if CO_RPDO_N > 0
-  if (!is_tpdo(*obj)) {
+  } else {
     pdo::change_deadline(*node, number_of(*obj), ticks);
   }
-#endif
   return CO_ERR_NONE;
 }
 

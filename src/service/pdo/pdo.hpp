@@ -24,15 +24,6 @@ void on_mode_tpdos(CO_NODE& node);
 void sample(CO_NODE& node, uint8_t counter);
 void apply(CO_NODE& node);
 
-#if USE_MPDO
-// Implements COTPdoSendTo() (co_pdo.h) for a number that exists.
-[[nodiscard]] CO_ERR send_to(CO_NODE& node, uint16_t number, uint8_t node_id, uint32_t key, uint32_t value);
-
-// Continues with the pending objects of the scanner list when the controller can accept frames. Always returns false:
-// it sends as many as possible, so that another call would send nothing.
-[[nodiscard]] bool on_free(CO_NODE& node, uint16_t number);
-#endif
-
 // Ends the synchronous window: withdraws synchronous TPDOs, and ignores synchronous RPDOs until the next SYNC.
 void end_window(CO_NODE& node);
 

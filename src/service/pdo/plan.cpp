@@ -9,7 +9,7 @@
 #include "dictionary/types/place.hpp"
 #include "dictionary/types/whole.hpp"
 #include "hal/port.hpp"
-#include "service/pdo/mpdo.hpp"
+#include "service/pdo/multiplex.hpp"
 #include "wire/bytes.hpp"
 
 // Weak references: null unless the application defines the functions; see co_pdo.h.
@@ -288,7 +288,7 @@ Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, M
   uint8_t fitting = 0;  // entries that fit completely into the frame
   bool plain = copies;
   map.Length = 0;
-  mpdo::set_mode(map, 0);
+  mpdo::clear_mode(map);
   if (num > CO_PDO_MAP_N) {
     return {mpdo::resolve(node, index, num, map), 0};
   }

@@ -6,10 +6,12 @@
 #include "base/events.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
+#include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "service/pdo/configuration.hpp"
-#include "service/pdo/mpdo.hpp"
+#include "service/pdo/multiplex.hpp"
 #include "service/pdo/pdo.hpp"
+#include "service/pdo/rpdo.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 
@@ -20,61 +22,25 @@ namespace {
 
 using event::Fault;
 
-// Bits of CO_PDO_MAP.Flags, in addition to those of plan.hpp.
-enum Flag : uint8_t {
-  queued = 0x01,     // the PDO is in the list of RPDOs that wait for the SYNC
-  fresh = 0x02,      // queued, and Data was not written to the objects yet
-  too_short = 0x04,  // pdo_short is raised
-  too_long = 0x08,   // pdo_long is raised
-  late = 0x10,       // pdo_timeout is raised
-  unknown = 0x20,    // pdo_unknown is raised: the frame names no object
-};
-constexpr unsigned reported = too_short | too_long | late | unknown;
+constexpr unsigned reported = too_short | too_long | late;
 
 static_assert(offsetof(CO_RPDO, Own.Data) % sizeof(Word) == 0);
 
 // Links of the list are PDO numbers from 1.
 constexpr uint16_t none = 0;
-CO_RPDO& at(CO_NODE& node, uint16_t link) { return node.RPdo[link - 1]; }
+CO_RPDO& at(CO_NODE& node, uint16_t link) {
+  CO_ASSERT(link != none && link <= CO_RPDO_N);
+  return node.RPdo[link - 1];
+}
 uint16_t link_of(const CO_RPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->RPdo + 1); }
 
 // Returns whether an RPDO is synchronous. Types 252 and 253 (remote requests) are not possible.
 bool is_synchronous(const CO_RPDO& pdo) { return USE_SYNC != 0 && pdo.Type <= last_synchronous_type; }
 
-// Faults of the flags from too_short on, in this order.
-constexpr Fault faults[] = {
-    Fault::pdo_short,
-    Fault::pdo_long,
-    Fault::pdo_timeout,
-#if USE_MPDO
-    Fault::pdo_unknown,
-#endif
-};
-
-// Raises or resolves the faults in flags, so that those in is are raised and the others are not. Each change is
-// reported once, with the number of the PDO from 1 (255 for all numbers above). Callbacks may end the PDO.
-void report(CO_RPDO& pdo, unsigned flags, unsigned is) {
-  unsigned flag = too_short;
-  for (const Fault fault : faults) {
-    if (((pdo.Map.Flags ^ is) & flags & flag) != 0) {
-      const uint16_t number = link_of(pdo);
-      const auto detail = static_cast<uint8_t>(CO_RPDO_N < UINT8_MAX || number < UINT8_MAX ? number : UINT8_MAX);
-      pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags ^ flag);
-      (is & flag) != 0 ? event::raise(*pdo.Node, fault, detail) : event::resolve(*pdo.Node, fault, detail);
-    }
-    flag <<= 1U;
-  }
-}
+// Faults of the flags from too_short to late.
+constexpr Fault faults[] = {Fault::pdo_short, Fault::pdo_long, Fault::pdo_timeout};
 
 void on_deadline(void* pdo_pointer) { report(*static_cast<CO_RPDO*>(pdo_pointer), late, late); }
-
-// Restarts the deadline and resolves the fault of a missed one: a frame was received, or the deadline has changed.
-void restart_deadline(CO_RPDO& pdo) {
-  if (pdo.Deadline != 0) {
-    tmr::start(pdo.Node->Tmr, pdo.Tmr, pdo.Deadline, 0, on_deadline, &pdo);
-  }
-  report(pdo, late, 0);  // its callbacks may end the PDO
-}
 
 // Returns false if the frame is too short. A longer frame is processed. [301:7.2.7.1 table 26]
 bool check_length(CO_RPDO& pdo, unsigned length) {
@@ -111,24 +77,6 @@ void write_and_mark(CO_NODE& node, CO_PDO_MAP& map, CO_IF_FRM& frame) {
   }
 }
 
-// Writes the object that the frame of a multiplex PDO names. Returns false if there is none.
-bool find_and_write([[maybe_unused]] CO_RPDO& pdo, [[maybe_unused]] const CO_IF_FRM& frame) {
-#if USE_MPDO
-  CO_NODE& node = *pdo.Node;
-  CO_OBJ* const obj = mpdo::find(node, pdo.Map, frame);
-  if (obj != nullptr) {
-    report(pdo, unknown, 0);
-    const Lock lock(node);
-    mpdo::write(node, pdo.Map, *obj, frame);
-    return true;
-  }
-  if (mpdo::is_dam(pdo.Map)) {
-    report(pdo, unknown, unknown);
-  }
-#endif
-  return false;
-}
-
 // Writes the stored data of an RPDO at the SYNC, unless the PDO was configured again meanwhile.
 void write_stored(CO_NODE& node, CO_RPDO& pdo) {
   if (!has(pdo.Map, fresh)) {
@@ -162,61 +110,76 @@ void call_sync_callbacks(CO_NODE& node, uint16_t first) {
   }
 }
 
-// Returns whether the bit rate is being switched: RPDOs are ignored then.
-bool is_switching([[maybe_unused]] const CO_NODE& node) {
-  return (USE_LSS != 0 || USE_LSS_MASTER != 0) && node.IsTransmitOff != 0;
-}
-
-// Processes a frame. Callbacks may end Operational or change the PDO. Returns false if the frame is too short or of the
-// wrong kind.
+// Processes a frame. Callbacks may end Operational or change the PDO. Returns false if the frame is too short.
 [[gnu::noinline]] bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
   if (is_switching(node) || (is_synchronous(pdo) && node.WindowOver != 0)) {
     return true;
   }
   set(pdo.Map, served);
-  if (!check_length(pdo, frame.DLC) || !mpdo::is_kind(pdo.Map, frame)) {
+  if (!check_length(pdo, frame.DLC)) {
     return false;
-  }
-  if (!mpdo::is_addressed(node, pdo.Map, frame)) {
-    return true;
   }
   if (pdo.Deadline != 0) {
     restart_deadline(pdo);
   }
   CO_IF_FRM copy = frame;
-  if (!has(pdo.Map, served) || callback::receive_pdo(node, copy) != 0 || !has(pdo.Map, served)) {
+  if (!is_left_to_stack(node, pdo, copy)) {
     return true;
   }
   if (is_synchronous(pdo)) {
     store_until_sync(pdo, copy);
     return true;
   }
-  if (!mpdo::is_mpdo(pdo.Map)) {
-    write_and_mark(node, pdo.Map, copy);
-  } else if (!find_and_write(pdo, copy)) {
-    return true;
-  }
+  write_and_mark(node, pdo.Map, copy);
   callback::update_pdo(node, pdo);
   return true;
 }
 
 }  // namespace
 
+uint8_t detail_of(const CO_RPDO& pdo) {
+  const uint16_t number = link_of(pdo);
+  return static_cast<uint8_t>(CO_RPDO_N < UINT8_MAX || number < UINT8_MAX ? number : UINT8_MAX);
+}
+
+void report(CO_RPDO& pdo, unsigned flags, unsigned is) {
+  unsigned flag = too_short;
+  for (const Fault fault : faults) {
+    if (((pdo.Map.Flags ^ is) & flags & flag) != 0) {
+      const uint8_t detail = detail_of(pdo);
+      pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags ^ flag);
+      (is & flag) != 0 ? event::raise(*pdo.Node, fault, detail) : event::resolve(*pdo.Node, fault, detail);
+    }
+    flag <<= 1U;
+  }
+}
+
+void restart_deadline(CO_RPDO& pdo) {
+  if (pdo.Deadline != 0) {
+    tmr::start(pdo.Node->Tmr, pdo.Tmr, pdo.Deadline, 0, on_deadline, &pdo);
+  }
+  report(pdo, late, 0);  // its callbacks may end the PDO
+}
+
 // Stops the deadline and resolves all faults.
 void end_rpdo(CO_NODE& node, CO_PDO& pdo) {
   tmr::stop(node.Tmr, pdo.Tmr);
   clear(pdo.Map, served);
   report(pdo, reported, 0);
+  mpdo::end_rpdo(pdo);
 }
 
 // Keeps the flag queued, because the PDO stays in the list until the SYNC. The deadline starts with the first frame.
 void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, uint32_t event) {
   pdo.Deadline = event;
   pdo.Map.Flags &= queued;
-  routes::change(*pdo.Node, identifier, routes::Service::rpdo, static_cast<uint16_t>(number));
+  const uint32_t received = mpdo::is_mpdo(pdo.Map) ? wire::no_frame : identifier;
+  routes::change(*pdo.Node, received, routes::Service::rpdo, static_cast<uint16_t>(number));
+  mpdo::begin_rpdo(pdo, number, identifier);
 }
 
 void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks) {
+  CO_ASSERT(number < CO_RPDO_N);
   CO_RPDO& pdo = node.RPdo[number];
   const bool is_expected = tmr::is_running(pdo.Tmr);
   pdo.Deadline = ticks;
@@ -241,6 +204,7 @@ void on_mode_rpdos(CO_NODE& node) {
 }
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
+  CO_ASSERT(number < CO_RPDO_N && exists(node.RPdo[number].Map) && !mpdo::is_mpdo(node.RPdo[number].Map));
   return process_frame(node, node.RPdo[number], frame);
 }
 
@@ -266,7 +230,10 @@ void apply(CO_NODE& node) {
   call_sync_callbacks(node, first);
 }
 
-bool was_received(CO_NODE& node, uint16_t number) { return take_transferred(node.RPdo[number].Map); }
+bool was_received(CO_NODE& node, uint16_t number) {
+  CO_ASSERT(number < CO_RPDO_N);
+  return take_transferred(node.RPdo[number].Map);
+}
 
 bool was_received(CO_NODE& node, const CO_OBJ& obj) {
   const uint16_t entry = number_of(node, obj);

@@ -10,51 +10,30 @@
 #include "base/transmit.hpp"
 #include "co_assert.h"
 #include "service/pdo/configuration.hpp"
-#include "service/pdo/mpdo.hpp"
+#include "service/pdo/multiplex.hpp"
 #include "service/pdo/pdo.hpp"
+#include "service/pdo/tpdo.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
-#include "wire/mpdo.hpp"
 
 #if CO_TPDO_N > 0
 
 namespace co::pdo {
 namespace {
 
-// Bits of CO_PDO_MAP.Flags, in addition to those of plan.hpp.
-enum Flag : uint8_t {
-  pending = 0x01,    // an event is deferred until the inhibit time has elapsed, or until the SYNC
-  inhibited = 0x02,  // event-driven: the inhibit time is running
-  sampled = 0x02,    // synchronous: Data holds the sample of the last SYNC
-  starts = 0x04,     // the PDO has a SYNC start value
-  waiting = 0x08,    // Count holds the SYNC start value, which was not reached yet; else Count is the number of SYNCs
-  remote = 0x10,     // remote requests are allowed
-  marked = 0x20,     // send_marked() triggers the PDO
-};
-
 static_assert(offsetof(CO_TPDO, Own) % sizeof(Word) == 0);
 
 // Links of the list are PDO numbers from 1.
 constexpr uint16_t none = 0;
-CO_TPDO& at(CO_NODE& node, uint16_t link) { return node.TPdo[link - 1]; }
+CO_TPDO& at(CO_NODE& node, uint16_t link) {
+  CO_ASSERT(link != none && link <= CO_TPDO_N);
+  return node.TPdo[link - 1];
+}
 
 uint16_t number_of(const CO_TPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->TPdo); }
 
-bool is_operational(const CO_NODE& node) { return event::is_allowed(node, CO_PDO_ALLOWED); }
-
 // Returns whether remote requests are answered with the sample of the last SYNC.
 bool keeps_sample(const CO_TPDO& pdo) { return USE_PDO_RTR != 0 && has(pdo.Map, remote) && is_synchronous(pdo.Type); }
-
-// Queues a frame. A queued frame of a multiplex PDO is not replaced by a newer one, because it may contain another
-// object.
-bool queue_frame(const CO_TPDO& pdo, const CO_IF_FRM& frame) {
-  CO_NODE& node = *pdo.Node;
-  return mpdo::is_mpdo(pdo.Map) ? transmit::send_for_application(node, frame)
-                                : transmit::send_process_data(node, frame);
-}
-
-// Returns why a PDO was not sent: the application has ended Operational, or changed the PDO, meanwhile.
-CO_ERR end_of(const CO_TPDO& pdo) { return is_operational(*pdo.Node) ? CO_ERR_TPDO_COM_OBJ : CO_ERR_NMT_MODE; }
 
 // Calls the callback of the application, queues the frame and marks the PDO as sent.
 CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
@@ -62,62 +41,12 @@ CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
   if (!has(pdo.Map, served)) {
     return end_of(pdo);
   }
-  if (!queue_frame(pdo, frame)) {
+  if (!transmit::send_process_data(*pdo.Node, frame)) {
     return CO_ERR_IF_CAN_SEND;
   }
   mark_transferred(pdo.Map);
   return CO_ERR_NONE;
 }
-
-#if USE_MPDO
-// Sends an object of the scanner list. It stays pending if the transmit queue is full.
-CO_ERR send_object(CO_TPDO& pdo, uint16_t place) {
-  CO_NODE& node = *pdo.Node;
-  const uint16_t entry = node.Mpdo.Scan[place];
-  const uint32_t key = entry < node.Dict.Num ? node.Dict.Root[entry].Key : 0;
-  CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, wire::mpdo_dlc);
-  CO_ERR err = CO_ERR_NONE;
-  {
-    const Lock lock(node);
-    err = mpdo::read(node, place, frame);
-  }
-  if (!has(pdo.Map, served)) {
-    return end_of(pdo);
-  }
-  if (err == CO_ERR_NONE) {
-    err = send(pdo, frame);
-  } else {
-    error::report(node, err, key);
-  }
-  if (err != CO_ERR_IF_CAN_SEND) {
-    mpdo::finish_object(node, place, entry, err == CO_ERR_NONE);
-  }
-  return err;
-}
-
-// Sends the pending objects of the scanner list, each at most once; with an inhibit time only one of them. Continues
-// only while the transmit queue is empty.
-CO_ERR send_scanned(CO_TPDO& pdo) {
-  CO_NODE& node = *pdo.Node;
-  const bool all = pdo.Own.Time.Inhibit == 0;
-  CO_ERR result = node.Mpdo.ScanNum != 0 ? CO_ERR_NONE : CO_ERR_TPDO_OBJ_TRIGGER;
-  uint16_t place = 0;
-  bool goes_on = true;
-  for (uint16_t left = node.Mpdo.ScanNum; left != 0 && goes_on && mpdo::next(node, place); --left) {
-    transmit::flush(node);
-    if (transmit::is_waiting(node)) {
-      break;
-    }
-    const CO_ERR err = send_object(pdo, place);
-    result = err != CO_ERR_NONE ? err : result;
-    goes_on = has(pdo.Map, served) && (all || err != CO_ERR_NONE);
-  }
-  if (all && mpdo::is_waiting(node)) {
-    node.Paused = 1;
-  }
-  return result;
-}
-#endif
 
 // Action of serve().
 enum class Use : uint8_t {
@@ -128,11 +57,6 @@ enum class Use : uint8_t {
 
 // Reads the mapped objects, stores the sample and sends the frame, as use requires.
 CO_ERR serve(CO_TPDO& pdo, Use use) {
-#if USE_MPDO
-  if (mpdo::is_sam(pdo.Map)) {
-    return send_scanned(pdo);
-  }
-#endif
   CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, length_of(pdo.Map));
   if (use == Use::send_sampled) {
     copy_data(frame.Data, pdo.Own.Data);
@@ -155,35 +79,19 @@ void on_time(void* pdo_pointer);
 
 void start(CO_TPDO& pdo, uint32_t ticks) { tmr::start(pdo.Node->Tmr, pdo.Tmr, ticks, 0, on_time, &pdo); }
 
-// Restarts the inhibit or event time after a transmission. by_timer: the event time starts at the expiry of the timer,
-// so that it does not drift; an inhibit time never starts before the transmission.
-void restart(CO_TPDO& pdo, bool by_timer) {
+// Restarts the inhibit or event time after a transmission. An inhibit time never starts before the transmission.
+[[gnu::always_inline]] inline void restart_by(CO_TPDO& pdo, Cause cause) {
   const CO_TPDO_TIMES& time = pdo.Own.Time;
   if (time.Inhibit != 0) {
     set(pdo.Map, inhibited);
     start(pdo, time.Inhibit);
   } else if (time.Event == 0) {
     return;
-  } else if (by_timer) {
+  } else if (cause == Cause::timer) {
     tmr::restart(pdo.Node->Tmr, pdo.Tmr, time.Event);
   } else {
     start(pdo, time.Event);
   }
-}
-
-// Sends an event-driven PDO. On an error nothing is sent later, but the event timer is restarted. Events for this PDO
-// from its own callbacks are ignored while it is being sent.
-CO_ERR send_event(CO_TPDO& pdo, bool by_timer) {
-  set(pdo.Map, served | inhibited);
-  const CO_ERR err = serve(pdo, Use::send);
-  if (has(pdo.Map, served)) {
-    clear(pdo.Map, served | inhibited | pending | marked);
-    if (mpdo::is_sam(pdo.Map) && mpdo::is_waiting(*pdo.Node)) {
-      set(pdo.Map, pending);
-    }
-    restart(pdo, by_timer);
-  }
-  return err;
 }
 
 // Returns whether the event time is over at the end of the inhibit time; both start with a transmission.
@@ -198,7 +106,7 @@ void end_inhibit(CO_TPDO& pdo) {
     if (is_over(time)) {
       mpdo::mark_all(pdo);
     }
-    (void)send_event(pdo, true);
+    (void)send_event(pdo, Cause::timer);
   } else if (time.Event != 0) {
     tmr::restart(pdo.Node->Tmr, pdo.Tmr, time.Event - time.Inhibit);
   }
@@ -210,7 +118,7 @@ void on_time(void* pdo_pointer) {
     end_inhibit(pdo);
   } else {
     mpdo::mark_all(pdo);
-    (void)send_event(pdo, true);
+    (void)send_event(pdo, Cause::timer);
   }
 }
 
@@ -255,7 +163,7 @@ bool is_sent_at_once(CO_TPDO& pdo) {
 // Triggers a PDO by an event of the application: sends it or leaves the event pending.
 CO_ERR trigger(CO_TPDO& pdo) {
   const CO_ERR err = check_event(pdo);
-  return err == CO_ERR_NONE && is_sent_at_once(pdo) ? send_event(pdo, false) : err;
+  return err == CO_ERR_NONE && is_sent_at_once(pdo) ? send_event(pdo, Cause::event) : err;
 }
 
 // Like trigger(), but marks the PDO instead of sending it; while OdLock is held, in any case.
@@ -349,14 +257,15 @@ uint16_t& find_link(CO_NODE& node, uint16_t to) {
 }
 
 // Adds a PDO to the list of synchronous TPDOs, or removes it.
-void update_sync_list(CO_NODE& node, unsigned number, bool listed) {
+void update_sync_list(CO_NODE& node, CO_TPDO& pdo, unsigned number) {
   const auto own = static_cast<uint16_t>(number + 1);
+  const bool listed = exists(pdo.Map) && is_synchronous(pdo.Type);
   uint16_t& link = find_link(node, own);
   if (listed && link != own) {
-    at(node, own).Next = link;
+    pdo.Next = link;
     link = own;
   } else if (!listed && link == own) {
-    link = at(node, own).Next;
+    link = pdo.Next;
   }
 }
 
@@ -367,9 +276,7 @@ void begin(CO_TPDO& pdo) {
     return;
   }
   pdo.Map.Flags &= lasting;
-  if (mpdo::is_sam(pdo.Map)) {
-    mpdo::forget_marks(*pdo.Node);
-  }
+  mpdo::clear_marks(pdo);
   if (is_event_driven(pdo.Type)) {
     if (CO_TPDO_ON_START != 0) {
       mpdo::mark_all(pdo);
@@ -391,23 +298,35 @@ void withdraw_synchronous(CO_NODE& node) {
 
 }  // namespace
 
+CO_ERR send_event(CO_TPDO& pdo, Cause cause) {
+  set(pdo.Map, served | inhibited);
+  const CO_ERR err = mpdo::is_sam(pdo.Map) ? mpdo::send_pending(pdo) : serve(pdo, Use::send);
+  if (has(pdo.Map, served)) {
+    clear(pdo.Map, served | inhibited | pending | marked);
+    if (mpdo::is_pending(pdo)) {
+      set(pdo.Map, pending);
+    }
+    restart_by(pdo, cause);
+  }
+  return err;
+}
+
+void restart(CO_TPDO& pdo) { restart_by(pdo, Cause::event); }
+
 void end_tpdo(CO_NODE& node, CO_PDO& pdo) {
   tmr::stop(node.Tmr, pdo.Tmr);
   clear(pdo.Map, served);
   transmit::withdraw(node, pdo.Identifier);
 }
 
-void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, bool is_remote) {
+void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, Remote requests) {
   CO_NODE& node = *pdo.Node;
-  const bool asked = USE_PDO_RTR != 0 && is_remote && exists(pdo.Map) && !mpdo::is_mpdo(pdo.Map);
+  const bool asked = USE_PDO_RTR != 0 && requests == Remote::answered && exists(pdo.Map) && !mpdo::is_mpdo(pdo.Map);
   pdo.Identifier = identifier;
   pdo.Map.Flags = asked ? remote : 0;
-  mpdo::set_producer(node, number, pdo.Map);
-  if (mpdo::is_dam(pdo.Map)) {
-    pdo.Own.Time.Event = 0;
-  }
+  mpdo::begin_tpdo(pdo, number);
   if (USE_SYNC != 0) {
-    update_sync_list(node, number, exists(pdo.Map) && is_synchronous(pdo.Type));
+    update_sync_list(node, pdo, number);
   }
   if (USE_PDO_RTR != 0) {
     routes::change(node, asked ? identifier : wire::no_frame, routes::Service::tpdo, static_cast<uint16_t>(number));
@@ -418,6 +337,7 @@ void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, bool is_remot
 }
 
 void change_event_time(CO_NODE& node, unsigned number, uint32_t ticks) {
+  CO_ASSERT(number < CO_TPDO_N);
   CO_TPDO& pdo = node.TPdo[number];
   if (!exists(pdo.Map) || !is_event_driven(pdo.Type) || mpdo::is_dam(pdo.Map)) {
     return;
@@ -441,13 +361,14 @@ void on_mode_tpdos(CO_NODE& node) {
 
 // Answers a remote request. [301:7.2.2.5.3]
 bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
+  CO_ASSERT(number < CO_TPDO_N && exists(node.TPdo[number].Map));
   CO_TPDO& pdo = node.TPdo[number];
   if (USE_PDO_RTR == 0) {
     return false;
   }
   if (is_event_driven(pdo.Type)) {
     if (is_sent_at_once(pdo)) {
-      (void)send_event(pdo, false);
+      (void)send_event(pdo, Cause::event);
     }
   } else if (pdo.Type == type_rtr || has(pdo.Map, sampled)) {
     set(pdo.Map, served);
@@ -502,6 +423,7 @@ CO_ERR send_marked(CO_NODE& node) {
 }
 
 CO_ERR request(CO_NODE& node, uint16_t number) {
+  CO_ASSERT(number < CO_TPDO_N);
   return node.OdLocked == 0 ? trigger(node.TPdo[number]) : trigger_later(node.TPdo[number]);
 }
 
@@ -512,7 +434,10 @@ CO_ERR request_object(CO_NODE& node, const CO_OBJ& obj) {
   return err != CO_ERR_NONE ? err : sent;
 }
 
-bool was_sent(CO_NODE& node, uint16_t number) { return take_transferred(node.TPdo[number].Map); }
+bool was_sent(CO_NODE& node, uint16_t number) {
+  CO_ASSERT(number < CO_TPDO_N);
+  return take_transferred(node.TPdo[number].Map);
+}
 
 bool was_sent(CO_NODE& node, const CO_OBJ& obj) {
   const uint16_t entry = number_of(node, obj);
@@ -522,37 +447,6 @@ bool was_sent(CO_NODE& node, const CO_OBJ& obj) {
   }
   return mpdo::was_sent(node, entry) || was;
 }
-
-#if USE_MPDO
-CO_ERR send_to(CO_NODE& node, uint16_t number, uint8_t node_id, uint32_t key, uint32_t value) {
-  CO_TPDO& pdo = node.TPdo[number];
-  if (!is_operational(node)) {
-    return CO_ERR_NMT_MODE;
-  }
-  if (!mpdo::is_dam(pdo.Map)) {
-    return exists(pdo.Map) ? CO_ERR_TPDO_MAP_OBJ : CO_ERR_TPDO_COM_OBJ;
-  }
-  if (has(pdo.Map, inhibited)) {
-    return CO_ERR_TPDO_INHIBIT;
-  }
-  CO_IF_FRM frame = wire::mpdo(pdo.Identifier, static_cast<uint8_t>(wire::mpdo_to_consumer | node_id), key, value);
-  set(pdo.Map, served | inhibited);
-  const CO_ERR err = send(pdo, frame);
-  if (has(pdo.Map, served)) {
-    clear(pdo.Map, served | inhibited);
-    restart(pdo, false);
-  }
-  return err;
-}
-
-bool on_free(CO_NODE& node, uint16_t) {
-  CO_TPDO* const pdo = mpdo::producer(node);
-  if (pdo != nullptr && is_operational(node) && !has(pdo->Map, inhibited) && mpdo::is_waiting(node)) {
-    (void)send_event(*pdo, false);
-  }
-  return false;
-}
-#endif
 
 }  // namespace co::pdo
 

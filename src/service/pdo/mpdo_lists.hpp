@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Object scanner list and object dispatching list, resolved into CO_MPDO. [301:7.5.2.39-40]
+#pragma once
+
+#include "service/pdo/plan.hpp"
+
+namespace co::mpdo {
+
+using pdo::Direction;
+
+inline constexpr uint16_t no_producer = 0;  // CO_MPDO.Producer holds numbers of TPDOs from 1
+
+// Resolve the scanner and the dispatching list. Entries with an invalid object are omitted; the first error is
+// returned.
+[[nodiscard]] CO_ERR resolve_scan(CO_NODE& node);
+[[nodiscard]] CO_ERR resolve_dispatch(CO_NODE& node);
+
+// Returns why an object cannot be sent or received in a multiplex PDO. obj: null if the dictionary has none with the
+// key
+[[nodiscard]] CO_ERR check_object(CO_NODE& node, Direction direction, CO_OBJ* obj, uint32_t key);
+
+// Maps an object behind the multiplexer of the frame, for pdo::copy_objects(). Returns CO_ERR_OBJ_SIZE if it has more
+// than 4 bytes. CORPdoObjWasReceived() finds the object in the mapping until the next one is mapped.
+[[nodiscard]] CO_ERR map_object(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj);
+
+// Returns the object of an entry number; null if CODictInit() has renumbered the entries, until remap() has run.
+[[nodiscard]] CO_OBJ* object_at(CO_NODE& node, uint16_t entry);
+
+// Scanner list -------------------------------------------------------------------------------------------------------
+// place: index of an object in the list (CO_MPDO.Scan)
+
+// Returns whether objects are pending; clear_marks() removes all marks.
+[[nodiscard]] bool is_waiting(const CO_NODE& node);
+void clear_marks(CO_NODE& node);
+
+// Finds the next pending object in the order of the list, beginning behind the one sent last.
+[[nodiscard]] bool next(CO_NODE& node, uint16_t& place);
+
+// Clears the mark of an object that was sent, or could not be read, and advances the round-robin index behind it.
+// entry: the object at place before callbacks were called
+void finish_object(CO_NODE& node, uint16_t place, uint16_t entry, bool sent);
+
+}  // namespace co::mpdo

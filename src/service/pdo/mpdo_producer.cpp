@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Producer of multiplex PDOs. [301:7.2.3]
+#include "base/callbacks.hpp"
+#include "base/error.hpp"
+#include "base/transmit.hpp"
+#include "co_assert.h"
+#include "service/pdo/mpdo.hpp"
+#include "service/pdo/mpdo_lists.hpp"
+#include "service/pdo/multiplex.hpp"
+#include "service/pdo/tpdo.hpp"
+#include "wire/mpdo.hpp"
+
+#if USE_MPDO && CO_TPDO_N > 0
+
+namespace co::mpdo {
+namespace {
+
+CO_TPDO* producer(CO_NODE& node) {
+  CO_ASSERT(node.Mpdo.Producer <= CO_TPDO_N);
+  return node.Mpdo.Producer == no_producer ? nullptr : &node.TPdo[node.Mpdo.Producer - 1];
+}
+
+// Calls the callback of the application, queues the frame and marks the PDO as sent. A queued frame is not replaced,
+// because it may contain another object.
+CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
+  callback::transmit_pdo(*pdo.Node, frame);
+  if (!pdo::has(pdo.Map, pdo::served)) {
+    return pdo::end_of(pdo);
+  }
+  if (!transmit::send_for_application(*pdo.Node, frame)) {
+    return CO_ERR_IF_CAN_SEND;
+  }
+  pdo::mark_transferred(pdo.Map);
+  return CO_ERR_NONE;
+}
+
+// Reads an object of the scanner list into a frame. Errors of the object are reported.
+CO_ERR read(CO_TPDO& pdo, uint16_t entry, CO_IF_FRM& frame) {
+  CO_NODE& node = *pdo.Node;
+  CO_OBJ* const obj = object_at(node, entry);
+  const CO_ERR err = obj != nullptr ? map_object(node, pdo.Map, *obj) : CO_ERR_OBJ_NOT_FOUND;
+  if (err != CO_ERR_NONE) {
+    error::report(node, err, obj != nullptr ? obj->Key : 0);
+    return err;
+  }
+  frame = wire::mpdo(pdo.Identifier, node.NodeId, CO_GET_DEV(obj->Key), 0);
+  return pdo::copy_objects(node, pdo.Map, frame, Direction::transmit);
+}
+
+// Sends an object of the scanner list. It stays pending if the transmit queue is full.
+CO_ERR send_object(CO_TPDO& pdo, uint16_t place) {
+  CO_NODE& node = *pdo.Node;
+  CO_ASSERT(place < node.Mpdo.ScanNum);
+  const uint16_t entry = node.Mpdo.Scan[place];
+  CO_IF_FRM frame;
+  CO_ERR err = read(pdo, entry, frame);
+  if (!pdo::has(pdo.Map, pdo::served)) {
+    return pdo::end_of(pdo);
+  }
+  if (err == CO_ERR_NONE) {
+    err = send(pdo, frame);
+  }
+  if (err != CO_ERR_IF_CAN_SEND) {
+    finish_object(node, place, entry, err == CO_ERR_NONE);
+  }
+  return err;
+}
+
+}  // namespace
+
+void begin_tpdo(CO_PDO& pdo, unsigned number) {
+  uint16_t& producer = pdo.Node->Mpdo.Producer;
+  const auto own = static_cast<uint16_t>(number + 1);
+  if (is_sam(pdo.Map)) {
+    producer = own;
+  } else if (producer == own) {
+    producer = no_producer;
+  }
+  if (is_dam(pdo.Map)) {
+    pdo.Own.Time.Event = 0;
+  }
+}
+
+CO_ERR send_pending(CO_PDO& pdo) {
+  CO_NODE& node = *pdo.Node;
+  const bool all = pdo.Own.Time.Inhibit == 0;
+  CO_ERR result = node.Mpdo.ScanNum != 0 ? CO_ERR_NONE : CO_ERR_TPDO_OBJ_TRIGGER;
+  uint16_t place = 0;
+  bool goes_on = true;
+  CO_ASSERT(is_sam(pdo.Map) && producer(node) == &pdo);
+  for (uint16_t left = node.Mpdo.ScanNum; left != 0 && goes_on && next(node, place); --left) {
+    transmit::flush(node);
+    if (transmit::is_waiting(node)) {
+      break;
+    }
+    const CO_ERR err = send_object(pdo, place);
+    result = err != CO_ERR_NONE ? err : result;
+    goes_on = pdo::has(pdo.Map, pdo::served) && (all || err != CO_ERR_NONE);
+  }
+  if (all && is_waiting(node)) {
+    node.Paused = 1;
+  }
+  return result;
+}
+
+bool is_pending(const CO_PDO& pdo) { return is_sam(pdo.Map) && is_waiting(*pdo.Node); }
+
+void clear_marks(CO_PDO& pdo) {
+  if (is_sam(pdo.Map)) {
+    clear_marks(*pdo.Node);
+  }
+}
+
+CO_ERR send_to(CO_NODE& node, uint16_t number, uint8_t node_id, uint32_t key, uint32_t value) {
+  if (number >= CO_TPDO_N) {
+    return CO_ERR_TPDO_NUM_TRIGGER;
+  }
+  CO_TPDO& pdo = node.TPdo[number];
+  if (!pdo::is_operational(node)) {
+    return CO_ERR_NMT_MODE;
+  }
+  if (!is_dam(pdo.Map)) {
+    return pdo::exists(pdo.Map) ? CO_ERR_TPDO_MAP_OBJ : CO_ERR_TPDO_COM_OBJ;
+  }
+  if (pdo::has(pdo.Map, pdo::inhibited)) {
+    return CO_ERR_TPDO_INHIBIT;
+  }
+  CO_IF_FRM frame = wire::mpdo(pdo.Identifier, static_cast<uint8_t>(wire::mpdo_to_consumer | node_id), key, value);
+  pdo::set(pdo.Map, pdo::served | pdo::inhibited);
+  const CO_ERR err = send(pdo, frame);
+  if (pdo::has(pdo.Map, pdo::served)) {
+    pdo::clear(pdo.Map, pdo::served | pdo::inhibited);
+    pdo::restart(pdo);
+  }
+  return err;
+}
+
+bool on_free(CO_NODE& node, uint16_t) {
+  CO_TPDO* const pdo = producer(node);
+  if (pdo != nullptr && pdo::is_operational(node) && !pdo::has(pdo->Map, pdo::inhibited) && is_waiting(node)) {
+    (void)pdo::send_event(*pdo, pdo::Cause::event);
+  }
+  return false;
+}
+
+}  // namespace co::mpdo
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reception of RPDOs, as far as multiplex PDOs share it.
+#pragma once
+
+#include "base/callbacks.hpp"
+#include "service/pdo/plan.hpp"
+
+namespace co::pdo {
+
+// Bits of CO_PDO_MAP.Flags of an RPDO, in addition to those of plan.hpp.
+enum RpdoFlag : uint8_t {
+  queued = 0x01,     // the PDO is in the list of RPDOs that wait for the SYNC
+  fresh = 0x02,      // queued, and Data was not written to the objects yet
+  too_short = 0x04,  // pdo_short is raised
+  too_long = 0x08,   // pdo_long is raised
+  late = 0x10,       // pdo_timeout is raised
+  unknown = 0x20,    // multiplex PDO: pdo_unknown is raised, because the frame names no object
+};
+
+// Returns whether the bit rate is being switched: RPDOs are ignored then.
+[[nodiscard]] inline bool is_switching([[maybe_unused]] const CO_NODE& node) {
+  return (USE_LSS != 0 || USE_LSS_MASTER != 0) && node.IsTransmitOff != 0;
+}
+
+// Returns the number of the PDO from 1 as detail of its faults (255 for all numbers above).
+[[nodiscard]] uint8_t detail_of(const CO_RPDO& pdo);
+
+// Raises or resolves the faults in flags, from too_short to late, so that those in is are raised and the others are
+// not. Each change is reported once. Callbacks may end the PDO.
+void report(CO_RPDO& pdo, unsigned flags, unsigned is);
+
+// Restarts the deadline and resolves the fault of a missed one: a frame was received, or the deadline has changed.
+void restart_deadline(CO_RPDO& pdo);
+
+// Returns whether the stack writes the objects of a received frame, which the callback may change: neither has the
+// application processed it, nor has a callback ended the PDO.
+[[nodiscard, gnu::always_inline]] inline bool is_left_to_stack(CO_NODE& node, const CO_RPDO& pdo, CO_IF_FRM& frame) {
+  return has(pdo.Map, served) && callback::receive_pdo(node, frame) == 0 && has(pdo.Map, served);
+}
+
+}  // namespace co::pdo
