@@ -14,6 +14,8 @@ import tempfile
 from pathlib import Path
 
 MODULES = ["wire", "hal", "base", "dictionary", "storage", "service", "od", "node"]
+# A service that extends another one includes it.
+EXTENDS = {"mpdo": "pdo"}
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
 # Headers of the standard library that need neither an operating system nor allocation.
 FREESTANDING = {
@@ -78,7 +80,7 @@ class Tree:
         if MODULES.index(there[0]) > MODULES.index(here[0]):
             return f"{there[0]} is above {here[0]}"
         in_service_module = len(here) > 2 and len(there) > 2
-        if here[0] == there[0] == "service" and in_service_module and here[1] != there[1]:
+        if here[0] == there[0] == "service" and in_service_module and there[1] not in (here[1], EXTENDS.get(here[1])):
             return "one service never includes another"
         return None
 
@@ -135,6 +137,8 @@ CLEAN = {
     "src/service/nmt/nmt.hpp": '#include "dictionary/dict.hpp"\n',
     "src/service/pdo/pdo.cpp": '#include "service/pdo/pdo.hpp"\n',
     "src/service/pdo/pdo.hpp": "",
+    "src/service/mpdo/mpdo.cpp": '#include "service/mpdo/mpdo.hpp"\n#include "service/pdo/pdo.hpp"\n',
+    "src/service/mpdo/mpdo.hpp": "",
     "src/od/flags.cpp": '#include "service/pdo/pdo.hpp"\n#include "od/list.hpp"\n',
     "src/od/list.hpp": "",
     "src/node/services.cpp": '#include "service/nmt/nmt.hpp"\n#include "service/pdo/pdo.hpp"\n',
@@ -154,6 +158,8 @@ PLANTED = {
     "the dictionary includes a service": ("src/dictionary/dict.cpp", '#include "service/nmt/nmt.hpp"'),
     "a type includes the node": ("src/dictionary/types/string.cpp", '#include "node/services.cpp"'),
     "a service includes another service": ("src/service/pdo/pdo.cpp", '#  include "service/nmt/nmt.hpp"'),
+    "a service includes one that extends it": ("src/service/pdo/pdo.cpp", '#include "service/mpdo/mpdo.hpp"'),
+    "a service that extends another one includes a third one": ("src/service/mpdo/mpdo.cpp", '#include "service/nmt/nmt.hpp"'),
     "a service includes the OD access interface": ("src/service/pdo/pdo.cpp", '#include "od/list.hpp"'),
     "a source needs a hosted library": ("src/dictionary/dict.cpp", "#include <vector>"),
     "a source includes by a relative path": ("src/dictionary/dict.cpp", '#include "../wire/sdo.hpp"'),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Marks of the objects in the object scanner list: pending, sent.
 #include "co_assert.h"
-#include "service/pdo/mpdo_lists.hpp"
+#include "service/mpdo/lists.hpp"
 #include "service/pdo/multiplex.hpp"
 
 #if USE_MPDO

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Functions of producer.cpp for configurations without TPDOs.
-#include "service/pdo/mpdo.hpp"
+#include "service/mpdo/mpdo.hpp"
 
 #if USE_MPDO && CO_TPDO_N == 0
 

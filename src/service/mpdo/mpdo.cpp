@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration of multiplex PDOs: mode, type and lists.
-#include "service/pdo/mpdo.hpp"
+#include "service/mpdo/mpdo.hpp"
 
 #include "base/events.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
+#include "service/mpdo/lists.hpp"
 #include "service/pdo/configuration.hpp"
-#include "service/pdo/mpdo_lists.hpp"
 #include "service/pdo/multiplex.hpp"
 #include "wire/mpdo.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Object scanner list and object dispatching list. [301:7.5.2.39-40]
+#include "service/mpdo/lists.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
-#include "service/pdo/mpdo_lists.hpp"
 #include "wire/mpdo.hpp"
 
 #if USE_MPDO
