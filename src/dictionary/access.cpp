@@ -38,6 +38,15 @@ uint32_t check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRAN
   return type.Size != nullptr ? no_abort : CO_SDO_ERR_TOS;
 }
 
+void end_transfer(CO_NODE& node, CO_SDO& channel) {
+  CO_ASSERT(channel.Obj != nullptr && channel.Obj->Type != nullptr);
+  CO_OBJ& obj = *channel.Obj;
+  channel.Obj = nullptr;
+  if (is_begun(channel)) {
+    (void)obj::end(obj, node, direction_of(channel), CO_SDO_ERR_TOS_STATE);
+  }
+}
+
 void close_moved(CO_NODE& node) {
   for (CO_SDO& channel : node.Sdo) {
     if (channel.Obj != nullptr && !is_in_place(node.Dict, channel)) {

@@ -44,6 +44,37 @@ class Nested {
   uint32_t abort_;
 };
 
+// Open transfers ------------------------------------------------------------------------------------------------------
+// An SDO server channel (CO_SDO) whose Obj is not null has a transfer of this object open. Services and the OD access
+// interface find, compare and end open transfers by these functions only.
+
+// Bits of CO_SDO.Flags that describe the open transfer; the others belong to the SDO server.
+enum TransferFlag : uint8_t {
+  download = 0x08,  // direction
+  begun = 0x40,     // Begin was called: see is_begun()
+};
+
+[[nodiscard]] inline CO_OBJ_TRANSFER direction_of(const CO_SDO& channel) {
+  return (channel.Flags & download) != 0 ? CO_OBJ_DOWNLOAD : CO_OBJ_UPLOAD;
+}
+
+// Returns whether the type's Begin function was called, so that its End function has to be called.
+[[nodiscard]] inline bool is_begun(const CO_SDO& channel) { return USE_OBJ_EX != 0 && (channel.Flags & begun) != 0; }
+
+// Ends the transfer of a channel: calls the End function of the type now. The server aborts the transfer (0800 0022h)
+// at the next frame of the client.
+void end_transfer(CO_NODE& node, CO_SDO& channel);
+
+// Calls end_transfer() for each transfer whose object fulfils a condition.
+template <class Condition>
+void end_transfers(CO_NODE& node, Condition is_ended) {
+  for (CO_SDO& channel : node.Sdo) {
+    if (channel.Obj != nullptr && is_ended(*channel.Obj)) {
+      end_transfer(node, channel);
+    }
+  }
+}
+
 // Clears the object of each SDO server channel whose entry is no longer at the same address, because CODictInit() was
 // called with another table. The server then aborts the transfer (0800 0022h).
 void close_moved(CO_NODE& node);
@@ -56,6 +87,8 @@ void close_moved(CO_NODE& node);
 // last piece arrives. 0: no channel has the object open.
 [[nodiscard]] uint32_t total_of(const CO_NODE& node, const CO_OBJ& obj);
 #endif
+
+// Checks and abort codes ----------------------------------------------------------------------------------------------
 
 // Compares the length of a transfer with need, the nearest length that the object allows. Returns an abort code.
 [[nodiscard]] constexpr uint32_t compare_length(uint32_t length, uint32_t need) {

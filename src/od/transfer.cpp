@@ -7,7 +7,6 @@
 #include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
 #include "od/kind.hpp"
-#include "service/sdo_server/transfer.hpp"
 
 namespace co::od {
 namespace {
@@ -31,18 +30,6 @@ unsigned first_of(const OD_t& od, const CO_OBJ& obj) {
 bool is_extensible_of(const OD_t& od, uint16_t index, const CO_OBJ* obj) {
   const auto offset = reinterpret_cast<uintptr_t>(obj) - reinterpret_cast<uintptr_t>(od.Table);
   return offset < od.TableLen * sizeof(CO_OBJ) && CO_GET_IDX(obj->Key) == index && extensible(*obj) != nullptr;
-}
-
-// Ends the transfer of an SDO server channel: calls the End function of the type now. The server aborts the transfer at
-// the next frame of the client.
-void end_transfer(CO_NODE& node, CO_SDO& channel) {
-  CO_ASSERT(channel.Obj != nullptr && channel.Obj->Type != nullptr);
-  CO_OBJ& obj = *channel.Obj;
-  const bool is_download = sdo_server::has(channel, sdo_server::download);
-  channel.Obj = nullptr;
-  if (sdo_server::is_begun(channel)) {
-    (void)obj::end(obj, node, is_download ? CO_OBJ_DOWNLOAD : CO_OBJ_UPLOAD, CO_SDO_ERR_TOS_STATE);
-  }
 }
 
 // Returns whether an OD_TRANSFER can be used for another SDO transfer.
@@ -125,12 +112,9 @@ void end_accesses(OD_t& od, uint16_t index) {
   if (is_extensible_of(od, index, own.Entry)) {
     own = {};
   }
-  for (CO_SDO& channel : node.Sdo) {
-    const bool is_running = running != nullptr && channel.Obj == served;
-    if (!is_running && is_extensible_of(od, index, channel.Obj)) {
-      end_transfer(node, channel);
-    }
-  }
+  access::end_transfers(node, [&](const CO_OBJ& obj) {
+    return (running == nullptr || &obj != served) && is_extensible_of(od, index, &obj);
+  });
 }
 
 bool is_extension_changed(const CO_NODE& node, const CO_OBJ& obj) {

@@ -23,7 +23,7 @@ uint32_t expedited_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& reque
   }
   wire::put_aligned(channel.Value, wire::get_high(request));
   abort = begin_data(channel, obj, channel.Value, length);
-  return abort == no_abort && is_begun(channel) ? close(channel, no_abort) : abort;
+  return abort == no_abort && access::is_begun(channel) ? close(channel, no_abort) : abort;
 }
 
 // Sets Size to the announced size, or to the maximum of the object.

@@ -17,7 +17,7 @@ constexpr bool has_time_out = CO_SDO_TIMEOUT != 0;
 constexpr uint8_t slices = 8;
 constexpr uint8_t reminder_slices = 2;
 
-CO_OBJ_TRANSFER direction(const CO_SDO& channel) { return has(channel, download) ? CO_OBJ_DOWNLOAD : CO_OBJ_UPLOAD; }
+using access::direction_of;
 
 // Counts an elapsed slice of an open transfer; each frame of the transfer sets the counter to 0.
 void count_slice(CO_SDO& channel) {
@@ -86,7 +86,7 @@ inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n)
 uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
   CO_NODE& node = *channel.Node;
   const access::Nested nested(node, &obj);
-  const CO_ERR err = obj::end(obj, node, direction(channel), code);
+  const CO_ERR err = obj::end(obj, node, direction_of(channel), code);
   const bool refused = err != CO_ERR_NONE && code == no_abort && has(channel, download);
   return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : no_abort;
 }
@@ -95,7 +95,7 @@ uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
 
 uint32_t close(CO_SDO& channel, uint32_t code) {
   CO_OBJ* const obj = channel.Obj;
-  const bool has_end = is_begun(channel) && obj != nullptr;
+  const bool has_end = access::is_begun(channel) && obj != nullptr;
   set_state(channel, State::idle);
   channel.Obj = nullptr;
   return has_end ? tell_end(channel, *obj, code) : no_abort;
@@ -150,7 +150,7 @@ uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
   if (obj::extended(obj) == nullptr) {
     return no_abort;
   }
-  const CO_ERR err = obj::begin(obj, node, direction(channel), size);
+  const CO_ERR err = obj::begin(obj, node, direction_of(channel), size);
   if (err != CO_ERR_NONE) {
     return access::abort_for(node, err);
   }
@@ -172,7 +172,7 @@ uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   if (swaps && !has(channel, download)) {
     wire::swap_host(data, n);
   }
-  return err == CO_ERR_NONE ? no_abort : access::report_failure(*channel.Node, direction(channel), err);
+  return err == CO_ERR_NONE ? no_abort : access::report_failure(*channel.Node, direction_of(channel), err);
 }
 
 uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
@@ -197,7 +197,7 @@ uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint3
   }
   channel.Read = position + n;
   if (err != CO_ERR_NONE) {
-    return access::report_failure(*channel.Node, direction(channel), err);
+    return access::report_failure(*channel.Node, direction_of(channel), err);
   }
   const bool may_end = obj::is_unknown(channel.Size) && !has(channel, download);
   return may_end ? learn_size(channel, position) : no_abort;

@@ -24,13 +24,13 @@ enum class State : uint8_t {
 
 // CO_SDO.Flags
 enum Flag : uint8_t {
-  sized = 0x01,      // download: the client has announced the size
-  whole = 0x02,      // a value: collected in Value, read or written in one piece
-  too_long = 0x04,   // block download: more data than the object can hold
-  download = 0x08,   // direction
-  toggled = 0x10,    // segmented transfer: toggle bit expected next, as in the frame
-  crc = 0x20,        // both sides support the CRC
-  begun = 0x40,      // Begin was called: see is_begun()
+  sized = 0x01,     // download: the client has announced the size
+  whole = 0x02,     // a value: collected in Value, read or written in one piece
+  too_long = 0x04,  // block download: more data than the object can hold
+  download = access::download,
+  toggled = 0x10,  // segmented transfer: toggle bit expected next, as in the frame
+  crc = 0x20,      // both sides support the CRC
+  begun = access::begun,
   last_sent = 0x80,  // block upload: the last segment of the transfer was sent
 };
 
@@ -46,9 +46,6 @@ inline void set(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint8_
 inline void clear(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint8_t>(channel.Flags & ~flag); }
 
 static_assert(toggled == wire::toggle_bit);
-
-// Returns whether the type's Begin function was called, so that its End function has to be called.
-inline bool is_begun(const CO_SDO& channel) { return USE_OBJ_EX != 0 && has(channel, begun); }
 
 // Suppresses the response. Setting the DLC again enables it.
 inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }

@@ -51,7 +51,7 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
   }
   wire::put_reply(answer, wire::expedited_upload_response(size), request);
   abort = begin_data(channel, obj, answer.Data + 4, size);
-  return abort == no_abort && is_begun(channel) ? close(channel, no_abort) : abort;
+  return abort == no_abort && access::is_begun(channel) ? close(channel, no_abort) : abort;
 }
 
 }  // namespace
