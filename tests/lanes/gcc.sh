@@ -14,6 +14,7 @@ lane() {
   run_doctest gcc "$build/release/tests/lexican_tests"
   run_doctest "gcc models" "$build/release/tests/models/lexican_model_tests"
   run_doctest "gcc controllers" "$build/release/tests/controllers/lexican_controller_tests"
+  run_doctest "gcc memories" "$build/release/tests/memories/lexican_memory_tests"
   run_ctest system "$build/release/tests/system"
   run_ctest cookbook "$build/release/tests/cookbook"
 }

@@ -9,6 +9,10 @@ lane() {
   run_tap python3 "$root/tests/porting/excerpts.py" "$root" docs/porting.md
   run_tap python3 "$root/tests/porting/excerpts.py" --some "$root" docs/drivers/bxcan.md
   run_tap python3 "$root/tests/porting/excerpts.py" --some "$root" docs/drivers/mcp2515.md
+  local page
+  for page in flash_pages eeprom_i2c eeprom_spi; do
+    run_tap python3 "$root/tests/porting/excerpts.py" --some "$root" "docs/drivers/$page.md"
+  done
   run_tap python3 "$root/tests/porting/excerpts.py" --self-test
   local source
   for source in $(sources tests/porting tests/driver_check/example drivers/template -name '*.c'); do
