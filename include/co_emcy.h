@@ -135,11 +135,11 @@ typedef struct CO_EMCY_USR_T {
 #define CO_EMCY_FAULT_N (10 + (USE_MPDO ? 1 : 0) + (CO_SRDO_N > 0 ? 2 : 0))  // kinds of errors that the stack detects
 #define CO_EMCY_HOLD_N 2  // kinds of these that may occur with every frame (8110h, 8150h)
 
-typedef struct CO_EMCY_HIST_T {  // ring of entries of 1003h
-  uint8_t Found;                 // entries counted while their types are initialised
-  uint8_t Max;                   // number of entries
-  uint8_t Num;                   // number of entries in use
-  uint8_t Off;                   // sub-index of the newest entry
+typedef struct CO_EMCY_HIST_T {                         // ring of entries of 1003h
+  uint8_t Found;                                        // entries counted while their types are initialised
+  uint8_t Max;                                          // number of entries
+  uint8_t Num;                                          // number of entries in use
+  uint8_t Off;                                          // sub-index of the newest entry
   void (*Add)(struct CO_NODE_T* node, uint32_t entry);  // adds an entry, set by the type of 1003h; null: no history
 } CO_EMCY_HIST;
 

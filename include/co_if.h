@@ -27,15 +27,15 @@ typedef struct CO_IF_DRV_T {
 /// The drivers of a node: &node.If. The application must not access the members. Inside the stack all drivers have a
 /// context argument; those of classic drivers are adapters.
 typedef struct CO_IF_T {
-  struct CO_NODE_T* Node;                    ///< owner
-  CO_IF_DRV* Drv;                            ///< classic drivers, CO_NODE_SPEC.Drv; null: they are not used
-  const CO_IF_CAN_DRV_EX* Can;               ///< CAN driver
-  void* CanCtx;                              ///< argument of the functions of Can
-  const CO_IF_TIMER_DRV_EX* Timer;           ///< timer driver
-  void* TimerCtx;                            ///< argument of the functions of Timer
-  const CO_IF_NVM_DRV_EX* Nvm;               ///< memory driver, or null
-  void* NvmCtx;                              ///< argument of the functions of Nvm
-  bool (*HasElapsed)(struct CO_IF_T* cif);   ///< asked by COTmrService(): classic timer drivers only, otherwise null
+  struct CO_NODE_T* Node;                   ///< owner
+  CO_IF_DRV* Drv;                           ///< classic drivers, CO_NODE_SPEC.Drv; null: they are not used
+  const CO_IF_CAN_DRV_EX* Can;              ///< CAN driver
+  void* CanCtx;                             ///< argument of the functions of Can
+  const CO_IF_TIMER_DRV_EX* Timer;          ///< timer driver
+  void* TimerCtx;                           ///< argument of the functions of Timer
+  const CO_IF_NVM_DRV_EX* Nvm;              ///< memory driver, or null
+  void* NvmCtx;                             ///< argument of the functions of Nvm
+  bool (*HasElapsed)(struct CO_IF_T* cif);  ///< asked by COTmrService(): classic timer drivers only, otherwise null
   uint32_t Expiry;      ///< classic timer driver: clock at the expiry for which it counts, or at the moment of its stop
   uint32_t Programmed;  ///< classic timer driver: ticks for which it counts; 0: stopped
   bool IsElapsed;       ///< classic timer driver: its expiry is being processed by COTmrService()

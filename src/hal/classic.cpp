@@ -6,7 +6,8 @@
 namespace co::classic {
 namespace {
 
-// CAN driver. Context argument of CAN and memory driver: the table of classic drivers, which the application may change.
+// CAN driver. Context argument of CAN and memory driver: the table of classic drivers, which the application may
+// change.
 const CO_IF_DRV& drivers_of(const void* ctx) { return *static_cast<const CO_IF_DRV*>(ctx); }
 const CO_IF_CAN_DRV& can_of(const void* ctx) { return *drivers_of(ctx).Can; }
 void can_init(void* ctx) { can_of(ctx).Init(); }

@@ -106,7 +106,9 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
 }
 
 [[nodiscard]] inline bool nvm_exists(const CO_NODE& node) { return node.If.Nvm != nullptr; }
-[[nodiscard]] inline bool nvm_has_shape(const CO_NODE& node) { return nvm_exists(node) && node.If.Nvm->Shape != nullptr; }
+[[nodiscard]] inline bool nvm_has_shape(const CO_NODE& node) {
+  return nvm_exists(node) && node.If.Nvm->Shape != nullptr;
+}
 [[nodiscard]] inline CO_NVM_SHAPE nvm_shape(const CO_NODE& node) { return node.If.Nvm->Shape(node.If.NvmCtx); }
 [[nodiscard]] bool nvm_erase(const CO_NODE& node, uint32_t start, uint32_t size);
 [[nodiscard]] uint32_t nvm_read(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);

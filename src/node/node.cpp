@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "node/node.hpp"
 #include "base/callbacks.hpp"
 #include "base/count.hpp"
 #include "base/error.hpp"
@@ -11,7 +12,6 @@
 #include "co_core.h"
 #include "dictionary/dict.hpp"
 #include "hal/port.hpp"
-#include "node/node.hpp"
 #include "node/services.hpp"
 #include "service/nmt/nmt.hpp"
 #include "service/pdo/pdo.hpp"

@@ -238,7 +238,8 @@ void on_free(CO_NODE& node) {
 bool is_real_time(const CO_NODE& node, unsigned place) {
   constexpr unsigned own = CO_SYNC_ALLOWED | CO_PDO_ALLOWED;
   const uint32_t id = node.Routes.Id[place];
-  while (routes::is_at(node, place, id) && (receivers.row[routes::service_of(node.Routes.Owner[place])].allowed & own) != 0) {
+  while (routes::is_at(node, place, id) &&
+         (receivers.row[routes::service_of(node.Routes.Owner[place])].allowed & own) != 0) {
     ++place;
   }
   return !routes::is_at(node, place, id);

@@ -2,8 +2,8 @@
 /// \file lexican/detail/configuration.h
 /// Prevents linking a program with a library that was compiled with other values of co_cfg.h: structures would differ
 /// in size, and CONodeInit() would write beyond the program's CO_NODE. In a program that includes co_core.h the linker
-/// symbols of CONodeInit(), CONodeInitEx() and CONodeInitCtx() end in a number, which the preprocessor computes from all settings. The
-/// library defines only the symbols of its configuration, so the linker reports:
+/// symbols of CONodeInit(), CONodeInitEx() and CONodeInitCtx() end in a number, which the preprocessor computes from
+/// all settings. The library defines only the symbols of its configuration, so the linker reports:
 ///
 ///     undefined reference to `CONodeInit_of_a_library_with_the_same_co_cfg_values_013213220321'
 ///

@@ -218,8 +218,7 @@ void init(CO_NODE& node) {
     number = 0;
   }
   init_history(node);
-  node.Emcy.Register =
-      static_cast<uint8_t>(dict::read_number(node, key_register, sizeof(uint8_t), node.Emcy.Register));
+  node.Emcy.Register = static_cast<uint8_t>(dict::read_number(node, key_register, sizeof(uint8_t), node.Emcy.Register));
   update_register(node);
   if (USE_DICT_CHECK != 0 && node.Emcy.Root != nullptr && dict::find(node.Dict, key_cob_id) == nullptr) {
     error::report(node, CO_ERR_CFG_1014_0, key_cob_id);

@@ -13,8 +13,7 @@ constexpr uint8_t communication_error = 1;
 
 // Returns the value of a sub-index of 1029h; without the entry the default.
 uint8_t behaviour_for(CO_NODE& node, uint8_t sub) {
-  return static_cast<uint8_t>(
-      dict::read_number(node, CO_DEV(0x1029, sub), sizeof(uint8_t), CO_ERROR_BEHAVIOUR_PREOP));
+  return static_cast<uint8_t>(dict::read_number(node, CO_DEV(0x1029, sub), sizeof(uint8_t), CO_ERROR_BEHAVIOUR_PREOP));
 }
 
 }  // namespace

@@ -25,9 +25,7 @@ constexpr uint8_t lowest_overflow = 2;
 constexpr uint8_t highest_overflow = 240;
 constexpr uint32_t producer = CO_SYNC_COBID_ON;
 
-uint32_t read(CO_NODE& node, uint16_t index) {
-  return dict::read_number(node, CO_DEV(index, 0), sizeof(uint32_t), 0);
-}
+uint32_t read(CO_NODE& node, uint16_t index) { return dict::read_number(node, CO_DEV(index, 0), sizeof(uint32_t), 0); }
 
 uint32_t ticks(const CO_NODE& node, uint32_t time) { return tmr::ticks(node.Tmr, time, microseconds); }
 
