@@ -20,7 +20,8 @@ int16_t can_send(void* ctx, const CO_IF_FRM* frame) {
 void can_reset(void* ctx) { can_of(ctx).Reset(); }
 void can_close(void* ctx) { can_of(ctx).Close(); }
 
-constexpr CO_IF_CAN_DRV_EX can = {can_init, can_enable, can_read, can_send, can_reset, can_close, nullptr, nullptr};
+constexpr CO_IF_CAN_DRV_EX can_adapter = {can_init,  can_enable, can_read, can_send,
+                                          can_reset, can_close,  nullptr,  nullptr};
 
 // Memory driver.
 const CO_IF_NVM_DRV& nvm_of(const void* ctx) { return *drivers_of(ctx).Nvm; }
@@ -32,7 +33,7 @@ uint32_t nvm_write(void* ctx, uint32_t start, const uint8_t* buffer, uint32_t si
   return nvm_of(ctx).Write(start, const_cast<uint8_t*>(buffer), size);
 }
 
-constexpr CO_IF_NVM_DRV_EX nvm = {nvm_init, nvm_read, nvm_write, nullptr, nullptr};
+constexpr CO_IF_NVM_DRV_EX nvm_adapter = {nvm_init, nvm_read, nvm_write, nullptr, nullptr};
 
 // Timer driver. Context argument: the node's CO_IF. A classic driver counts down and has no clock; the clock is the
 // time of the expiry for which it counts, less the ticks that are left. It stops with the driver.
@@ -98,22 +99,22 @@ bool has_elapsed(CO_IF* cif) {
   return cif->IsElapsed;
 }
 
-constexpr CO_IF_TIMER_DRV_EX timer = {timer_init, timer_now, timer_alarm};
+constexpr CO_IF_TIMER_DRV_EX timer_adapter = {timer_init, timer_now, timer_alarm};
 
 }  // namespace
 
 void add_drivers(CO_IF& cif, CO_IF_DRV& drivers) {
   cif.Drv = &drivers;
   if (cif.Can == nullptr && drivers.Can != nullptr) {
-    cif.Can = &can;
+    cif.Can = &can_adapter;
     cif.CanCtx = &drivers;
   }
   if (cif.Nvm == nullptr && drivers.Nvm != nullptr) {
-    cif.Nvm = &nvm;
+    cif.Nvm = &nvm_adapter;
     cif.NvmCtx = &drivers;
   }
   if (cif.Timer == nullptr && drivers.Timer != nullptr) {
-    cif.Timer = &timer;
+    cif.Timer = &timer_adapter;
     cif.TimerCtx = &cif;
     cif.HasElapsed = has_elapsed;
   }
