@@ -2,6 +2,7 @@
 // Access of the network to the dictionary: for SDO servers, and for SDO clients that access their own node.
 #pragma once
 
+#include "co_assert.h"
 #include "co_core.h"
 #include "dictionary/abort_code.hpp"
 #include "dictionary/obj.hpp"
@@ -15,6 +16,7 @@ namespace co::access {
 // Returns the length in bytes of an object; its type has a Size function, as check() has found.
 // width: bytes of a download, 0 for an upload.
 [[nodiscard]] inline uint32_t size(CO_OBJ& obj, CO_NODE& node, uint32_t width) {
+  CO_ASSERT(obj.Type != nullptr && obj.Type->Size != nullptr);
   return obj.Type->Size(&obj, &node, width);
 }
 

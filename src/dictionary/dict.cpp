@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dictionary/dict.hpp"
 
+#include "co_assert.h"
 #include "co_core.h"
 #include "dictionary/obj.hpp"
 #include "wire/bytes.hpp"
@@ -102,6 +103,7 @@ Initialised init_objects(CO_DICT& dict, CO_NODE& node) {
 
 uint32_t read_number(CO_NODE_T& node, uint32_t key, uint32_t width, uint32_t otherwise) {
   uint32_t number = 0;
+  CO_ASSERT(width != 0 && width <= sizeof number);
   const uint32_t above = wire::host_is_little_endian ? 0 : sizeof number - width;
   CO_OBJ* const obj = find(node.Dict, key);
   const bool known =

@@ -2,6 +2,7 @@
 // Lock of mapped objects, which are read or written together.
 #pragma once
 
+#include "co_assert.h"
 #include "co_core.h"
 
 namespace co::dict {
@@ -15,6 +16,7 @@ class Lock {
     }
   }
   ~Lock() {
+    CO_ASSERT(node_.OdLocked != 0);
     if (--node_.OdLocked == 0 && node_.Ext->OdUnlock != nullptr) {
       node_.Ext->OdUnlock(node_.Ext->User);
     }

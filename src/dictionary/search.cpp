@@ -2,6 +2,8 @@
 // Search of an entry, optimised for speed. dict.cpp has the small one.
 #include "dictionary/dict.hpp"
 
+#include "co_assert.h"
+
 #if USE_FAST_PATHS
 
 namespace co::dict {
@@ -69,6 +71,7 @@ CO_OBJ* find(CO_DICT& dict, uint32_t key) {
   if (found == nullptr) {  // an empty table
     return nullptr;
   }
+  CO_ASSERT(found >= dict.Root && found <= dict.Last);
   const uint32_t bound = bound_of(key);
   if (!is_within(found->Key, bound)) {
     found = last_not_behind(dict, bound);

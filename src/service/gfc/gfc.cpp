@@ -5,6 +5,7 @@
 #include "base/events.hpp"
 #include "base/routes.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
@@ -55,7 +56,8 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 void init(CO_NODE& node) { routes::change(node, is_used(node) ? identifier : wire::no_frame, routes::Service::gfc, 0); }
 
-bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, [[maybe_unused]] uint16_t number) {
+  CO_ASSERT(number == 0);
   if (frame.DLC != 0) {
     return false;
   }

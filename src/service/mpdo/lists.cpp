@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Object scanner list and object dispatching list. [301:7.5.2.39-40]
 #include "service/mpdo/lists.hpp"
+#include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
 #include "wire/mpdo.hpp"
@@ -50,7 +51,9 @@ CO_ERR check_block(CO_NODE& node, Direction direction, uint32_t key, uint8_t num
 
 // Returns the number of an entry that is in the dictionary, as check_block() has found.
 uint16_t entry_of(CO_NODE& node, uint32_t key) {
-  return static_cast<uint16_t>(dict::find(node.Dict, key) - node.Dict.Root);
+  const CO_OBJ* const obj = dict::find(node.Dict, key);
+  CO_ASSERT(obj != nullptr);
+  return static_cast<uint16_t>(obj - node.Dict.Root);
 }
 
 // Scanner list --------------------------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/events.hpp"
+#include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
 #include "dictionary/types/number.hpp"
@@ -245,8 +246,10 @@ CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Dir
   CO_ERR result = CO_ERR_NONE;
   unsigned position = 0;
   for (unsigned place = 0; position != map.Length; ++place) {
+    CO_ASSERT(place < CO_PDO_MAP_N && position < map.Length);
     const unsigned entry = map.Entry[place];
     const unsigned length = map.Step[place] % by_type;
+    CO_ASSERT(entry == no_entry || entry < node.Dict.Num);
     if (entry != no_entry) {
       const CO_ERR err = copy_or_report(node, frame, {node.Dict.Root[entry], position, length}, direction);
       result = err != CO_ERR_NONE ? err : result;
@@ -324,6 +327,7 @@ Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, M
 }
 
 CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
+  CO_ASSERT(exists(map) && has(map, served) && length_of(map) <= sizeof frame.Data);
   const bool at_once = is_copied(map) && node.Ext->OdLock == nullptr && !is_numbered_anew(node);
   return at_once ? copy_plain(node.Dict.Root, map, frame.Data, direction) : copy_locked(node, map, frame, direction);
 }

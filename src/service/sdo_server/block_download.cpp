@@ -2,6 +2,7 @@
 // Block download. Segments are collected in the buffer, which is written to the object when it is full, and at the end
 // of the transfer after the checks of length and CRC. [301:7.2.4.3.9-11]
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "service/sdo_server/transfer.hpp"
 
 #if USE_SDO_BLOCK
@@ -31,6 +32,7 @@ void store_segment(CO_SDO& channel, const CO_IF_FRM& segment) {
     set(channel, too_long);
     return;
   }
+  CO_ASSERT(channel.Fill + wire::segment_bytes <= CO_SDO_BUF_BYTE);
   wire::copy_segment(buffer_of(channel) + channel.Fill, segment.Data + 1);
   channel.Fill = static_cast<uint16_t>(channel.Fill + wire::segment_bytes);
   ++channel.Seq;
@@ -139,6 +141,7 @@ uint32_t end_block(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*
 }
 
 bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame) {
+  CO_ASSERT(channel.Fill >= wire::segment_bytes && channel.Fill <= CO_SDO_BUF_BYTE);
   const uint8_t* const stored = buffer_of(channel) + channel.Fill - wire::segment_bytes;
   return frame.Data[0] == wire::block_segment(channel.AckSeq, true) &&
          wire::is_equal(frame.Data + 1, stored, wire::segment_bytes) && !is_right_end(channel, frame);

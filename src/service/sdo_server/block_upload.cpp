@@ -3,6 +3,7 @@
 // are sent as the controller accepts them. [301:7.2.4.3.13-15]
 #include "base/events.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "service/sdo_server/transfer.hpp"
 
 #if USE_SDO_BLOCK
@@ -34,6 +35,7 @@ uint32_t load(CO_SDO& channel, uint32_t position) {
   if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
   }
+  CO_ASSERT(position < channel.Size);
   const uint32_t n = smaller(CO_SDO_BUF_BYTE, channel.Size - position);
   __builtin_memset(buffer_of(channel), 0, n);  // clears bytes that the type may not fill
   const uint32_t abort = transfer_piece(channel, position, buffer_of(channel), n);
@@ -80,6 +82,7 @@ uint32_t send_segments(CO_SDO& channel) {
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);
   while (channel.Seq != channel.BlkSize && provide(channel, position, abort)) {
     const uint32_t left = channel.Read - position;
+    CO_ASSERT(left <= channel.Fill);
     fill(frame, buffer_of(channel) + channel.Fill - left, left);
     position += smaller(wire::segment_bytes, left);
     const bool last = position == channel.Size;

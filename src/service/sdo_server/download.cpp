@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/sdo_server/transfer.hpp"
 
+#include "co_assert.h"
+
 namespace co::sdo_server {
 namespace {
 
@@ -38,9 +40,9 @@ uint32_t take_size(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, bool 
   return channel.Size == 0 && !obj::is_stream(obj) ? access::abort_for(node, CO_ERR_TYPE_WR) : no_abort;
 }
 
-uint32_t longer_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, CO_IF_FRM& answer, bool by_block) {
+uint32_t longer_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, CO_IF_FRM& answer, Mode mode) {
   const uint8_t command = request.Data[0];
-  const bool announced = by_block ? wire::is_block_sized(command) : wire::is_size_indicated(command);
+  const bool announced = mode == Mode::block ? wire::is_block_sized(command) : wire::is_size_indicated(command);
   uint32_t abort = take_size(channel, obj, request, announced);
   if (abort == no_abort && obj::is_stream(obj)) {
     abort = begin_stream(channel, obj, announced ? channel.Size : CO_OBJ_SIZE_UNKNOWN);
@@ -51,29 +53,30 @@ uint32_t longer_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request,
   if (is_value(channel, obj)) {
     set(channel, whole);
   }
-  continue_transfer(channel, obj, by_block ? State::block_download : State::download);
-  if (has_block && by_block) {
+  continue_transfer(channel, obj, mode == Mode::block ? State::block_download : State::download);
+  if (has_block && mode == Mode::block) {
     begin_block_download(channel, request, answer);
     return no_abort;
   }
   return has(channel, whole) ? no_abort : begin_data(channel, obj, channel.Value, 0);
 }
 
-uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found, bool by_block) {
+uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found, Mode mode) {
   const Opened opened = open(channel, request, CO_OBJ_DOWNLOAD, found);
   if (opened.abort != no_abort) {
     return opened.abort;
   }
   CO_OBJ& obj = *opened.obj;
-  wire::put_reply(answer, by_block ? wire::accept_block : wire::initiate_download_response, request);
-  return !by_block && wire::is_expedited(request.Data[0]) ? expedited_download(channel, obj, request)
-                                                          : longer_download(channel, obj, request, answer, by_block);
+  wire::put_reply(answer, mode == Mode::block ? wire::accept_block : wire::initiate_download_response, request);
+  return mode != Mode::block && wire::is_expedited(request.Data[0])
+             ? expedited_download(channel, obj, request)
+             : longer_download(channel, obj, request, answer, mode);
 }
 
 }  // namespace
 
 uint32_t initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
-  return initiate(channel, request, answer, found, false);
+  return initiate(channel, request, answer, found, Mode::segmented);
 }
 
 #if USE_SDO_BLOCK
@@ -82,7 +85,7 @@ uint32_t initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_I
     restart(channel, request);
     return CO_SDO_ERR_CMD;
   }
-  return initiate(channel, request, answer, found, true);
+  return initiate(channel, request, answer, found, Mode::block);
 }
 #endif
 
@@ -98,6 +101,7 @@ uint32_t check_total(CO_SDO& channel, uint32_t total) {
 }
 
 uint32_t finish_download(CO_SDO& channel) {
+  CO_ASSERT(!has(channel, whole) || channel.Obj != nullptr);
   const uint32_t abort = has(channel, whole) ? begin_data(channel, *channel.Obj, channel.Value, channel.Num) : no_abort;
   return abort == no_abort ? close(channel, no_abort) : abort;
 }

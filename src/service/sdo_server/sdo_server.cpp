@@ -6,6 +6,7 @@
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "service/sdo_server/number.hpp"
 #include "service/sdo_server/segment.hpp"
@@ -83,6 +84,7 @@ void give_up(CO_SDO& channel, uint32_t abort) {
 // Runs a service. The channel is busy while type functions run, because they may change the NMT state.
 inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, CO_OBJ* found) {
   CO_NODE& node = *channel.Node;
+  CO_ASSERT(channel.Idle != busy && state_of(channel) < State::count);
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
   const uint8_t idle = channel.Idle;
   channel.Idle = busy;
@@ -179,9 +181,13 @@ void configure(CO_NODE& node) {
   }
 }
 
-bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) { return serve(node.Sdo[number], frame); }
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
+  CO_ASSERT(number < CO_SSDO_N && node.Sdo[number].Node == &node);
+  return serve(node.Sdo[number], frame);
+}
 
 bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
+  CO_ASSERT(number < CO_SSDO_N);
 #if USE_SDO_BLOCK
   CO_SDO& channel = node.Sdo[number];
   if (state_of(channel) == State::block_upload) {

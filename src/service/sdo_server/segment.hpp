@@ -5,6 +5,7 @@
 
 #include "base/events.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "co_domain.h"
 #include "dictionary/types/place.hpp"
 #include "service/sdo_server/transfer.hpp"
@@ -71,6 +72,7 @@ namespace co::sdo_server {
   if (!is_next || number >= channel.BlkSize || end > channel.Size - channel.Num) {
     return false;
   }
+  CO_ASSERT(end <= CO_SDO_BUF_BYTE);
   wire::copy_segment(buffer_of(channel) + channel.Fill, segment.Data + 1);
   channel.Fill = static_cast<uint16_t>(end);
   channel.Seq = number;

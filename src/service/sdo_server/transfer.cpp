@@ -5,6 +5,7 @@
 #include "base/events.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "dictionary/types/stream.hpp"
 
 namespace co::sdo_server {
@@ -102,6 +103,7 @@ uint32_t close(CO_SDO& channel, uint32_t code) {
 }
 
 void abort_transfer(CO_SDO& channel, uint32_t code) {
+  CO_ASSERT(code != no_abort);
   count(channel.Node->Count.SdoAborts);
   transmit::send(*channel.Node, wire::abort_frame(channel.TxId, channel.Key, code));
   close(channel, code);
@@ -110,6 +112,7 @@ void abort_transfer(CO_SDO& channel, uint32_t code) {
 // One timer supervises all channels: a transfer ends after eight slices without a frame.
 void continue_transfer(CO_SDO& channel, CO_OBJ& obj, State state) {
   CO_NODE& node = *channel.Node;
+  CO_ASSERT(state_of(channel) == State::idle && state != State::idle);
   channel.Obj = &obj;
   channel.Num = 0;
   channel.Read = 0;
@@ -178,6 +181,7 @@ uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
 uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
   CO_ERR err = CO_ERR_NONE;
   if (has(channel, whole)) {
+    CO_ASSERT(n <= sizeof channel.Value && position <= sizeof channel.Value - n);
     uint8_t* const value = channel.Value + position;
     has(channel, download) ? wire::copy(value, data, n) : wire::copy(data, value, n);
   } else if (n != 0) {

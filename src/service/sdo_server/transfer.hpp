@@ -2,6 +2,7 @@
 // State and helper functions of a server transfer, shared by the services of the state machine.
 #pragma once
 
+#include "co_assert.h"
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/stream.hpp"
@@ -21,6 +22,9 @@ enum class State : uint8_t {
   block_upload_end,    // the end message was sent, its response is awaited
   count
 };
+
+// Protocol of a transfer of more than 4 bytes, as the client requests it.
+enum class Mode : uint8_t { segmented, block };
 
 // CO_SDO.Flags
 enum Flag : uint8_t {
@@ -158,6 +162,7 @@ constexpr uint32_t not_reached = 1;
 [[nodiscard]] inline uint8_t* buffer_of(const CO_SDO& channel) {
   constexpr size_t size = size_t{CO_SDO_BUF_SEG} * wire::segment_bytes;
   const CO_NODE& node = *channel.Node;
+  CO_ASSERT(node.SdoBuf != nullptr);
   return CO_SSDO_N == 1 ? node.SdoBuf : node.SdoBuf + size * static_cast<size_t>(&channel - node.Sdo);
 }
 

@@ -23,7 +23,7 @@ uint32_t longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_
   return no_abort;
 }
 
-uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found, bool by_block) {
+uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found, Mode mode) {
   CO_NODE& node = *channel.Node;
   const Opened opened = open(channel, request, CO_OBJ_UPLOAD, found);
   uint32_t abort = opened.abort;
@@ -36,6 +36,7 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
   if (obj::is_no_size(obj, size)) {
     return access::abort_for(node, CO_ERR_TYPE_RD);
   }
+  bool by_block = mode == Mode::block;
   if (has_block && by_block) {
     by_block = is_worth_block(size, request);
     abort = check_block_upload(channel, obj, request);
@@ -57,7 +58,7 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
 }  // namespace
 
 uint32_t initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
-  return initiate(channel, request, answer, found, false);
+  return initiate(channel, request, answer, found, Mode::segmented);
 }
 
 #if USE_SDO_BLOCK
@@ -66,7 +67,7 @@ uint32_t initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_
     restart(channel, request);
     return CO_SDO_ERR_CMD;
   }
-  return initiate(channel, request, answer, found, true);
+  return initiate(channel, request, answer, found, Mode::block);
 }
 #endif
 

@@ -233,6 +233,7 @@ CO_ERR check_mapping(CO_NODE& node, uint32_t mapping, uint32_t rights) {
 }
 
 uint32_t configure(CO_NODE& node, unsigned number) {
+  CO_ASSERT(number < CO_SRDO_N);
   const uint8_t sub = apply_communication(node, number, read_communication(node, number));
   if (sub != 0) {
     return CO_DEV(index_of(first_communication, number), sub);

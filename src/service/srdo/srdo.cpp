@@ -109,6 +109,7 @@ void end_pair(CO_SRDO& srdo) {
 }
 
 void send_inverse(CO_SRDO& srdo, const uint8_t* data) {
+  CO_ASSERT(srdo.Length <= sizeof srdo.Data);
   CO_IF_FRM frame = wire::empty_frame(srdo.Identifier[1], srdo.Length);
   __builtin_memcpy(frame.Data, data, srdo.Length);
   transmit::send(*srdo.Node, frame) ? end_pair(srdo) : fail(srdo, CO_SRDO_ERR_SEND);
@@ -278,6 +279,7 @@ bool change_routes(CO_SRDO& srdo, bool receives, const uint32_t (&before)[2]) {
 // Checks an SRDO and starts it. is_valid: 13FEh was valid when Operational was entered. Returns whether the routes have
 // changed.
 bool begin(CO_NODE& node, unsigned number, bool is_valid) {
+  CO_ASSERT(node.Srdo[number].Node == &node && !is_running(node.Srdo[number]));
   CO_SRDO& srdo = node.Srdo[number];
   const uint32_t before[] = {srdo.Identifier[0], srdo.Identifier[1]};
   srdo.Identifier[0] = srdo.Identifier[1] = wire::no_frame;
@@ -334,6 +336,7 @@ void end(CO_SRDO& srdo) {
 }  // namespace
 
 void change_direction(CO_NODE& node, unsigned number) {
+  CO_ASSERT(number < CO_SRDO_N && !is_running(node.Srdo[number]));
   const bool exists = direction_of(node, number) != CO_SRDO_NONE;
   change_state(node.Srdo[number], exists ? CO_SRDO_NOT_OPERATIONAL : CO_SRDO_DELETED);
 }
