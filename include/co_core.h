@@ -39,6 +39,7 @@
 #include "co_lss.h"
 #include "co_lss_master.h"
 #include "co_pdo.h"
+#include "co_recorder.h"
 #include "co_ring.h"
 #include "co_srdo.h"
 #include "co_ssdo.h"
@@ -232,6 +233,9 @@ typedef struct CO_NODE_T {
   uint32_t ErrorKey;                 ///< key of the object that Error is about
 #if CO_SRDO_N > 0
   CO_SRDO Srdo[CO_SRDO_N];  ///< SRDOs, 1301h + index
+#endif
+#if USE_RECORDER
+  CO_RECORDERS Recorders;  ///< recorders, and their time
 #endif
 } CO_NODE;
 

@@ -36,6 +36,9 @@
 #ifndef USE_GFC
 #define USE_GFC 1
 #endif
+#ifndef USE_RECORDER
+#define USE_RECORDER 1
+#endif
 #ifndef CO_EMCY_CONS_N
 #define CO_EMCY_CONS_N 8
 #endif

@@ -43,6 +43,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_os.h"
 #include "co_para.h"
 #include "co_pdo_types.h"
+#include "co_recorder.h"
 #include "co_sdo.h"
 #include "co_srdo.h"
 #include "co_string.h"
@@ -204,6 +205,19 @@ inline constexpr Type types[] = {
     {&COTSrdoMap, rules::srdo_mapping, Value::unsigned_integer, 4},
     {&COTSrdoValid, rules::srdo_valid, Value::unsigned_integer, 1},
     {&COTSrdoSignature, rules::srdo_signature, Value::unsigned_integer, 2},
+#endif
+#if USE_RECORDER
+    {&COTRecConfig, {0x2000, 0x5FFF, 1, 1, 0, false, false}, Value::unsigned_integer, 4},
+    {&COTRecConfig, {0x2000, 0x5FFF, 2, 2, 0, false, false}, Value::unsigned_integer, 1},
+    {&COTRecConfig, {0x2000, 0x5FFF, 4, 5, 0, false, false}, Value::unsigned_integer, 4},
+    {&COTRecConfig, {0x2000, 0x5FFF, 6, 7, 0, false, false}, Value::unsigned_integer, 1},
+    {&COTRecConfig, {0x2000, 0x5FFF, 8, 8, 0, false, false}, Value::integer, 4},
+    {&COTRecConfig, {0x2000, 0x5FFF, 9, 9, 0, false, false}, Value::unsigned_integer, 4},
+    {&COTRecConfig, {0x2000, 0x5FFF, 10, 10, 0, false, false}, Value::unsigned_integer, 2},
+    {&COTRecData, rules::recorder_data, Value::integer, 4},
+    {&COTRecData, rules::recorder_trigger_time, Value::unsigned_integer, 4},
+    {&COTRecPlot.Type, rules::recorder_plot, Value::bytes, 0},
+    {&COTRecEnable, rules::recorder_enable, Value::boolean, 1},
 #endif
 #if USE_TIME
     {&COTTimeId, rules::time_cob_id, Value::unsigned_integer, 4},

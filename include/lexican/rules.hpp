@@ -211,6 +211,18 @@ inline constexpr Rule os_output{0x1026, 0x1026, 2, 3, 0, false, false};
 inline constexpr Rule module_number{0x1027, 0x1027, 0, 0, 0, false, false};
 /// 1027h, all sub-indices
 inline constexpr Rule module_list{0x1027, 0x1027, 0, 254, 0, false, false};
+/// 2000h…5FFFh, sub 1 and 2: points and axis of a recorder
+inline constexpr Rule recorder_first{0x2000, 0x5FFF, 1, 2, 0, false, false};
+/// 2000h…5FFFh, sub 4 to 10: other parameters of a recorder
+inline constexpr Rule recorder_config{0x2000, 0x5FFF, 4, 10, 0, false, false};
+/// 2000h…5FFFh, sub 1 to 4: points and values of a recorder
+inline constexpr Rule recorder_data{0x2000, 0x5FFF, 1, 4, 0, false, false};
+/// 2000h…5FFFh, sub 6: time of the trigger of a recorder
+inline constexpr Rule recorder_trigger_time{0x2000, 0x5FFF, 6, 6, 0, false, false};
+/// 2000h…5FFFh: plot of a recorder
+inline constexpr Rule recorder_plot{0x2000, 0x5FFF, 0, 254, 0, false, false};
+/// 2000h…5FFFh: enables all recorders
+inline constexpr Rule recorder_enable{0x2000, 0x5FFF, 0, 254, 0, false, false};
 /// \}
 
 /// Returns whether an index is in the range of a rule; the indices of TPDOs are not considered.

@@ -324,6 +324,16 @@ uint32_t ticks(const CO_TMR& timers, uint32_t time, uint32_t unit) {
   return product >> 32 >= unit ? 0 : static_cast<uint32_t>(divide(product, unit));
 }
 
+// Divides whole seconds first, so that each quotient fits into 32 bits, and multiplies the rest by 1000.
+uint32_t milliseconds(const CO_TMR& timers, uint32_t ticks, uint32_t& rest) {
+  CO_ASSERT(timers.Freq != 0 && rest < timers.Freq);
+  const uint64_t seconds = divide(ticks, timers.Freq);
+  const uint64_t part = seconds >> 32;
+  const uint64_t split = divide((part << 10) - (part << 4) - (part << 3) + rest, timers.Freq);
+  rest = static_cast<uint32_t>(split >> 32);
+  return static_cast<uint32_t>(seconds) * 1000U + static_cast<uint32_t>(split);
+}
+
 void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
   const Lock lock(timers);
   remove(timers, timer);

@@ -61,6 +61,10 @@ inline void assign_to_real_time(CO_TMR_MEM&) {}
 // armed.
 [[nodiscard]] uint32_t now(CO_TMR& timers);
 
+// Converts ticks of the clock to milliseconds. rest: part of a millisecond that was left by the last call, in units of
+// 1 ms / ticks per second; 0 at first. The timer frequency is not 0.
+[[nodiscard]] uint32_t milliseconds(const CO_TMR& timers, uint32_t ticks, uint32_t& rest);
+
 // Returns the ticks until COTmrService() or COTmrProcess() has work; UINT32_MAX: no timer is armed.
 [[nodiscard]] uint32_t next_deadline(CO_TMR& timers);
 

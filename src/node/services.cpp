@@ -20,6 +20,7 @@
 #include "service/mpdo/mpdo.hpp"
 #include "service/nmt/nmt.hpp"
 #include "service/pdo/pdo.hpp"
+#include "service/recorder/recorder.hpp"
 #include "service/sdo_client/sdo_client.hpp"
 #include "service/sdo_server/sdo_server.hpp"
 #include "service/srdo/srdo.hpp"
@@ -104,6 +105,9 @@ constexpr Service table[] = {
 #endif
 #if USE_LED
     without_frames(CO_NMT_ALLOWED, led::init, led::on_mode),
+#endif
+#if USE_RECORDER
+    without_frames(CO_NMT_ALLOWED, nullptr, recorder::on_mode),
 #endif
 };
 
@@ -216,6 +220,9 @@ void remap(CO_NODE* node) {
   pdo::remap(*node);
 #if CO_SRDO_N > 0
   srdo::on_remap(*node);
+#endif
+#if USE_RECORDER
+  recorder::on_remap(node);
 #endif
 }
 

@@ -83,6 +83,11 @@
 #else
 #define CO_NEEDS_USE_REAL_TIME CO_LEFT_OUT("USE_REAL_TIME 1")
 #endif
+#if USE_RECORDER
+#define CO_NEEDS_USE_RECORDER
+#else
+#define CO_NEEDS_USE_RECORDER CO_LEFT_OUT("USE_RECORDER 1")
+#endif
 #if USE_SYNC
 #define CO_NEEDS_USE_SYNC
 #else
