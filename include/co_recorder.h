@@ -25,7 +25,7 @@
 /// | 2 | INTEGER32 | last value |
 /// | 3, 4 | INTEGER32 | minimum, maximum since the recorder was started |
 /// | 5 | DOMAIN | the plot, generated while it is read |
-/// | 6 | UNSIGNED32 | time of the trigger in ms; 0: none |
+/// | 6 | UNSIGNED32 | time of the last trigger in ms; 0: none |
 ///
 /// CO_TREC_ENABLE, usually 2400h, BOOLEAN: 0 stops all recorders of the node, 1 continues them.
 ///
@@ -165,7 +165,7 @@ typedef struct CO_RECORDER_T {
   int32_t Value;               ///< last value
   int32_t Min;                 ///< least value
   int32_t Max;                 ///< greatest value
-  uint32_t TriggerTime;        ///< time of the trigger
+  uint32_t TriggerTime;        ///< time of the last trigger
   uint8_t State;               ///< idle, waiting for the trigger, recording, or full
   uint8_t HasValue;            ///< a sample was taken
   CO_RECORDER_PLOT Plot;       ///< plot that is being read

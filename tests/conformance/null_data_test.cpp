@@ -65,6 +65,10 @@ const Null placed[] = {
     {0x1800, 5, CO_TPDO_EVENT},   {0x1800, 6, CO_TPDO_START},    {0x1A00, 0, CO_TPDO_NUM},
     {0x1A00, 1, CO_TPDO_MAP},
 #endif
+#if USE_RECORDER
+    {0x2301, 1, CO_TREC_CONFIG},  {0x2301, 10, CO_TREC_CONFIG},  {0x2400, 0, CO_TREC_ENABLE},
+    {0x2401, 1, CO_TREC_DATA},    {0x2401, 6, CO_TREC_DATA},
+#endif
 #if USE_MPDO
     {0x1FA0, 1, CO_TPDO_SCAN},    {0x1FD0, 1, CO_TPDO_DISPATCH},
 #endif

@@ -213,6 +213,14 @@ TEST_CASE("plot: the application cannot read it as an object [R4]") {
   CHECK(node.plot() == lines(1, 3));
 }
 
+TEST_CASE("plot: null Data is refused [R4]") {
+  Fixture node(Setup().only_small().with({CO_KEY(0x2401, 5, CO_OBJ_____R_), CO_TREC_PLOT, 0}));
+  node.ask("601#4001240500000000", "581#8001240520000008");
+#if USE_SDO_BLOCK
+  node.ask("601#A401240501000000", "581#8001240520000008");
+#endif
+}
+
 TEST_CASE("plot: a reset ends the read [R4] [R6]") {
   RecorderNode node;
   record(node, 1, 3);

@@ -45,6 +45,8 @@ void the_eds_is_read_from_the_device(void);
 void a_command_is_executed_and_answered(void);
 void stored_commands_are_executed_later(void);
 void the_prompt_echoes_characters(void);
+void a_recorder_keeps_the_points_around_its_trigger(void);
+void a_client_configures_a_recorder_and_reads_its_plot(void);
 void a_user_type_refuses_a_value(void);
 void a_user_type_computes_its_value(void);
 

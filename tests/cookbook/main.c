@@ -42,6 +42,8 @@ int main(void) {
   RUN_TEST(a_command_is_executed_and_answered);
   RUN_TEST(stored_commands_are_executed_later);
   RUN_TEST(the_prompt_echoes_characters);
+  RUN_TEST(a_recorder_keeps_the_points_around_its_trigger);
+  RUN_TEST(a_client_configures_a_recorder_and_reads_its_plot);
   RUN_TEST(a_user_type_refuses_a_value);
   RUN_TEST(a_user_type_computes_its_value);
   return UNITY_END();

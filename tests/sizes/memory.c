@@ -66,6 +66,13 @@ uint8_t module_srdo[SIZE_OF(Srdo)];
 #define SRDO 0
 #endif
 
+#if USE_RECORDER
+uint8_t module_recorder[SIZE_OF(Recorders)];
+#define RECORDER sizeof module_recorder
+#else
+#define RECORDER 0
+#endif
+
 #if USE_PARA
 uint8_t module_storage[SIZE_OF(Verified) + SIZE_OF(ParaTmr)];
 #define PARA sizeof module_storage
@@ -92,7 +99,7 @@ uint8_t module_sdo_server[SIZE_OF(Sdo) + SIZE_OF(SdoTmr)];
 
 /* All that is nobody's. */
 uint8_t module_base[sizeof(CO_NODE) - sizeof module_nmt - sizeof module_sdo_server - sizeof module_pdo - SDO_CLIENT -
-                    EMCY - SYNC - TIME - LED - LSS - SRDO - PARA - GUARDING - HEARTBEAT];
+                    EMCY - SYNC - TIME - LED - LSS - SRDO - RECORDER - PARA - GUARDING - HEARTBEAT];
 
 #else
 

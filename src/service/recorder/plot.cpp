@@ -386,6 +386,9 @@ CO_RECORDER* read_by(const CO_OBJ& obj) {
 }
 
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) {
+  if (uintptr_t{obj->Data} == 0) {
+    return 0;
+  }
   const CO_RECORDER* const recorder = read_by(*obj);
   return recorder != nullptr && is_at_end(*recorder) ? recorder->Plot.At : CO_OBJ_SIZE_UNKNOWN;
 }

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'6', '0', '0', '0'>, co::Sub<'0', '5'>
+// The indices are those of manufacturers.
+#define USE_RECORDER 1
+#include "lexican/dictionary.hpp"
+
+CO_RECORDER recorder;
+
+constexpr CO_OBJ od[] = {
+    {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x6000, 5, CO_OBJ_____R_), CO_TREC_PLOT, (CO_DATA)(&recorder)},
+    CO_OBJ_DICT_ENDMARK,
+};
+CO_OD_CHECK(od);
