@@ -132,7 +132,7 @@ class Writer {
   [[nodiscard]] Token token() const { return {text_, length_}; }
 
  private:
-  char text_[24];
+  char text_[24] = {};
   uint32_t length_ = 0;
 };
 
