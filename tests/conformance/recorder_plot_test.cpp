@@ -96,7 +96,8 @@ TEST_CASE("plot: a name without end does not make the picture endless [R4]") {
   CHECK(node.plot().find("<title></title>") != std::string::npos);
 }
 
-// Points of a read ------------------------------------------------------------------------------------------------------
+// Points of a read
+// ------------------------------------------------------------------------------------------------------
 
 TEST_CASE("plot: a read sees the points of its begin and removes them [R4]") {
   RecorderNode node;

@@ -102,7 +102,8 @@ class Client {
   unsigned complete_ = 0;
 };
 
-TEST_CASE("recorder: a plot has only recorded points with any configuration and any changes meanwhile [R2] [R3] [R4] [R5]") {
+TEST_CASE(
+    "recorder: a plot has only recorded points with any configuration and any changes meanwhile [R2] [R3] [R4] [R5]") {
   unsigned complete = 0;
   for (unsigned seed = 0; seed < 40; seed += stride(4)) {
     CAPTURE(seed);

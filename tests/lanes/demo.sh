@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 about="demo/run: builds the demo, shows it and serves it on a pseudo-terminal; the commands of README"
 minutes=2
-packages=(g++ cmake ninja-build=ninja libcli11-dev=/usr/include/CLI/CLI.hpp)
+packages=(g++ cmake ninja-build=ninja libcli11-dev=/usr/include/CLI/CLI.hpp python3 chromium)
 
 lane() {
   now_in "$build/demo/build.log"
   check "demo/run --virtual" shows "steps in .* all as expected" --virtual
   check "demo/run thermometer" shows "TPDO1 temperature in 0.1 degrees Celsius = 1010" thermometer
+  check "demo/run recorder, and its picture in Chromium" drawn
   check "demo/run --serve, and the commands of README for the master" served
   check "demo/run --serve without node-ID, and lss set-id" configured
 }
@@ -15,6 +16,12 @@ demo() { "$root/demo/run" "$@"; }
 
 shows() {  # REGEX ARGUMENT...
   demo "${@:2}" | tee "$results/demo-shown.log" | grep -E "$1"
+}
+
+drawn() {
+  rm -f "$results/recorder.svg"
+  demo recorder --output "$results/recorder.svg" &&
+    python3 "$root/tests/system/demo/picture.py" "$results/recorder.svg" "$results/recorder.png"
 }
 
 # Runs COMMAND with the name of the node's pseudo-terminal while the node serves: with_node COMMAND NODE-ARGUMENT...

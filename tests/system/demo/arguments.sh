@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# arguments.sh NODE MASTER THERMOMETER
+# arguments.sh NODE MASTER THERMOMETER RECORDER
 #
 # Checks that demo/run checks its arguments and shows its help before it installs or builds anything, that the commands
 # in README.md are valid, and that the help texts have the options of the programs.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
-node=${1:?the demo node} master=${2:?the demo master} thermometer=${3:?the thermometer}
+node=${1:?the demo node} master=${2:?the demo master} thermometer=${3:?the thermometer} recorder=${4:?the recorder}
 trap 'rm -r "$work"' EXIT
 
 # Replacements of the tools that install and build, which record their arguments.
@@ -32,6 +32,7 @@ answers "help" 0 "Usage: demo/run *--bare-metal*--serve*" --help
 answers "help of the master" 0 "*--index HEX*nmt *" master --help
 answers "help of lss" 0 "*--address V P R S*set-bitrate*" master lss --help
 answers "help of the thermometer" 0 "*Usage: demo/run thermometer*" thermometer --help
+answers "help of the recorder" 0 "*Usage: demo/run recorder*--output FILE*" recorder --help
 answers "help of the boards" 0 "*mps2-an385*--serve*" --bare-metal --help
 
 answers "unknown option" 2 "demo/run: unknown option '--frames' of the node*--every-frame*" --frames
@@ -47,6 +48,8 @@ answers "unknown command of the master" 2 "demo/run: unknown command 'get' of ma
 answers "unknown NMT command" 2 "demo/run: nmt needs one of: start stop preop reset-node reset-comm" master nmt begin
 answers "unknown LSS service" 2 "demo/run: lss needs one of: scan set-id set-bitrate store inquire" master lss find
 answers "argument of the thermometer" 2 "demo/run: unknown argument '20' of thermometer*" thermometer 20
+answers "argument of the recorder" 2 "demo/run: unknown argument 'x.svg' of recorder*" recorder x.svg
+answers "missing value of the recorder" 2 "demo/run: option '--output' of recorder needs a value*" recorder --output
 answers "unknown board" 2 "demo/run: unknown board 'uno'; one of *" --bare-metal uno
 answers "unknown option of a board" 2 "demo/run: unknown option '--virtual' of --bare-metal*" --bare-metal microbit --virtual
 answers "several boards to be served" 2 "demo/run: --serve runs one board, not all" --bare-metal all --serve
@@ -75,6 +78,7 @@ same_options node.txt "$node"
 same_options master.txt "$master"
 same_options lss.txt "$master" lss
 same_options thermometer.txt "$thermometer"
+same_options recorder.txt "$recorder"
 
 # Checks that missing packages are named with their size before they are installed.
 ends "missing packages" 0 "missing Debian packages: sl
