@@ -58,7 +58,8 @@
 /// - CSV: a line `time;value` for each point, ended by a line feed.
 /// - Binary: for each point the time, UNSIGNED32, and the value, INTEGER32.
 /// - SVG: a picture of 800 by 400 with the value as steps, its name, and the limits of both axes. A gap in the curve
-///   shows points that were left out. The begin of the upload searches the points for their limits.
+///   shows points that were left out. The begin of the upload searches the points for their limits. Up to 80
+///   characters of the name are shown; it should not be changed during the upload.
 ///
 /// **Configuration.** Each write is checked as a whole: an object that does not exist is refused with 0602 0000h, one
 /// that cannot be read or is no number of this length with 0604 0041h, any other wrong value with 0609 0030h. A change
@@ -197,7 +198,7 @@ extern const CO_OBJ_TYPE COTRecEnable CO_NEEDS(USE_RECORDER);   ///< functions o
 /// Starts a recorder: empties it and begins to sample. Not needed for a recorder with entries in the dictionary, which
 /// CONodeInit() and NMT resets start; one without entries has to be started after each CONodeInit().
 /// \retval CO_ERR_NONE           the recorder is started
-/// \retval CO_ERR_BAD_ARG        an argument is null, or the node was never initialised
+/// \retval CO_ERR_BAD_ARG        an argument is null, or the node was never initialised or is stopped
 /// \retval CO_ERR_OBJ_NOT_FOUND  the dictionary has no such object
 /// \retval CO_ERR_OBJ_MAP_TYPE   the object cannot be read, or is no number of that length
 /// \retval CO_ERR_OBJ_RANGE      another member of the configuration is wrong
@@ -206,15 +207,15 @@ CO_ERR CORecorderStart(struct CO_NODE_T* node, CO_RECORDER* recorder) CO_NEEDS(U
 
 /// Changes the configuration of a recorder that was started, as a whole; with an error it stays unchanged. Returns the
 /// errors of CORecorderStart(), or:
-/// \retval CO_ERR_BAD_ARG  an argument is null, or the recorder was never started
+/// \retval CO_ERR_BAD_ARG  an argument is null, the recorder was never started, or the node is stopped
 CO_ERR CORecorderConfigure(CO_RECORDER* recorder, const CO_RECORDER_CONFIG* config) CO_NEEDS(USE_RECORDER);
 
 /// Takes a sample, in addition to those of the timer: for example when a SYNC was received, or in the cycle of a
 /// controller.
 /// \retval CO_ERR_NONE          the object was read
 /// \retval CO_ERR_BAD_ARG       \a recorder is null, or was never started
-/// \retval CO_ERR_OBJ_STATE     the recorders are disabled (CO_TREC_ENABLE), no object is configured, or the node is
-///                              stopped
+/// \retval CO_ERR_OBJ_STATE     the recorders are disabled (CO_TREC_ENABLE), no object is configured, the
+///                              configuration in the table was wrong, or the node is stopped
 /// \retval CO_ERR_OBJ_NOT_FOUND the object is no longer in the dictionary
 /// \retval other                error of the type of the object
 CO_ERR CORecorderSample(CO_RECORDER* recorder) CO_NEEDS(USE_RECORDER);
