@@ -53,6 +53,8 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 /// Checks at compile time that \a od, a constexpr array of CO_OBJ with static storage, is a dictionary without faults.
 /// For namespace and function scope. Entries with types of the application are checked only for the rules of all types.
+/// An object that constant mappings of an SRDO and of an ordinary PDO contain causes a warning
+/// (-Wdeprecated-declarations, omitted if this header is a system header).
 #define CO_OD_CHECK(od) static_assert(::co::dictionary::is_proved<od>(), "see Dictionary<...> above")
 
 namespace co {
@@ -379,24 +381,63 @@ constexpr std::uintptr_t mapped_number(std::uint16_t index) {
   return content<Od>(number) == Content::address ? highest : Od[number].Data.value();
 }
 
-/// Returns the position of the entry without flag P that the mapping entry at \a place maps, or the length of the
-/// table. The value of a mapping in a variable is unknown to the compiler. FEh and FFh are multiplex PDOs, which do not
-/// use their mapping entries.
+/// Returns the value of the mapping entry at \a place if it is a constant of the table and in use, otherwise 0. The
+/// value of a mapping in a variable is unknown to the compiler. Static data types, which skip bytes, and multiplex PDOs
+/// (FEh and FFh), which do not use their mapping entries, are 0, too. \a rule: PDOs or SRDOs
 template <const auto& Od>
-constexpr std::size_t find_unmappable(std::size_t place) {
+constexpr std::uint32_t mapped_by(const rules::Rule& rule, std::size_t place) {
   const std::uint32_t key = Od[place].Key;
-  const bool is_place = rules::is_place(rules::pdo_mapping, key) || rules::is_place(rules::srdo_mapping, key);
-  const bool is_mapping = is_place && rules::has(key, CO_OBJ_D_____);
+  const bool is_mapping = rules::is_place(rule, key) && rules::has(key, CO_OBJ_D_____);
   if (!is_mapping || content<Od>(place) != Content::value) {
-    return length(Od);
+    return 0;
   }
   const std::uintptr_t number = mapped_number<Od>(rules::index_of(key));
   const auto mapping = static_cast<std::uint32_t>(Od[place].Data.value());
-  if (number > rules::pdo_mapping.last_sub || rules::sub_of(key) > number || rules::is_static_type(mapping)) {
+  const bool is_used = number <= rules::pdo_mapping.last_sub && rules::sub_of(key) <= number;
+  return is_used && !rules::is_static_type(mapping) ? mapping : 0;
+}
+
+/// Returns the position of the entry without flag P that the mapping entry at \a place maps, or the length of the
+/// table.
+template <const auto& Od>
+constexpr std::size_t find_unmappable(std::size_t place) {
+  const std::uint32_t mapping = mapped_by<Od>(rules::pdo_mapping, place) | mapped_by<Od>(rules::srdo_mapping, place);
+  if (mapping == 0) {
     return length(Od);
   }
   const std::size_t mapped = position(Od, mapping);
   return mapped < length(Od) && !rules::has(Od[mapped].Key, CO_OBJ____P__) ? mapped : length(Od);
+}
+
+/// Returns whether a constant mapping of an ordinary PDO contains the object of a mapping value.
+template <const auto& Od>
+constexpr bool is_in_pdo(std::uint32_t mapping) {
+  for (std::size_t place = 0; place < length(Od); ++place) {
+    if ((mapped_by<Od>(rules::pdo_mapping, place) >> 8) == (mapping >> 8)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Returns the mapping value of the first object that constant mappings of an SRDO and of an ordinary PDO contain; 0:
+/// none.
+template <const auto& Od>
+constexpr std::uint32_t find_shared() {
+  for (std::size_t place = 0; place < length(Od); ++place) {
+    const std::uint32_t mapping = mapped_by<Od>(rules::srdo_mapping, place);
+    if (mapping != 0 && is_in_pdo<Od>(mapping)) {
+      return mapping;
+    }
+  }
+  return 0;
+}
+
+/// Causes a warning of the compiler whose template arguments name an object.
+template <class Index, class Sub>
+[[deprecated("a PDO and an SRDO map this object; map a copy of it into the PDO")]] constexpr bool
+safety_object_in_pdo() {
+  return true;
 }
 
 /// Result of a check.
@@ -437,10 +478,15 @@ constexpr Finding check() {
   return check_mappings<Od>();
 }
 
-/// Returns true, or causes a compile error that names the first fault of the table.
+/// Returns true, or causes a compile error that names the first fault of the table. Causes a warning if an SRDO and an
+/// ordinary PDO map the same object.
 template <const auto& Od>
 constexpr bool is_proved() {
   constexpr Finding finding = check<Od>();
+  constexpr std::uint32_t shared = find_shared<Od>();
+  if constexpr (shared != 0) {
+    (void)safety_object_in_pdo<IndexOf<rules::index_of(shared)>, SubOf<rules::sub_of(shared)>>();
+  }
   return Dictionary<finding.fault, IndexOf<rules::index_of(finding.key)>, SubOf<rules::sub_of(finding.key)>>::proved;
 }
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Usage: run.sh SOURCE COMPILER [OPTION...]
 # Compiles a source that must not compile, and looks for the text of its "// expect:" lines in what the compiler says.
-# A source with "// expect to compile" must compile without a word.
+# A source with "// expect to compile" must compile without a word, one with "// expect a warning: " lines with their texts.
 set -u
 source=$1
 shift
@@ -20,8 +20,12 @@ if grep -q '^// expect to compile$' "$source"; then
   exit 0
 fi
 
-[ $compiled = no ] || fail 'compiles, but must not'
-expected=$(sed -n 's,^// expect: ,,p' "$source")
+if grep -q '^// expect a warning: ' "$source"; then
+  [ $compiled = yes ] || fail 'does not compile'
+else
+  [ $compiled = no ] || fail 'compiles, but must not'
+fi
+expected=$(sed -n 's,^// expect\( a warning\)\{0\,1\}: ,,p' "$source")
 [ -n "$expected" ] || fail 'has no line "// expect: TEXT"'
 printf '%s\n' "$expected" | while IFS= read -r text; do
   printf '%s\n' "$said" | grep -qF -- "$text" || exit 1
