@@ -70,8 +70,8 @@ typedef double float64_t;    ///< REAL64
 
 /// \name Attributes of a variable
 /// Derived from the flags of the entry and from its type. They apply to the network only: no function of this file
-/// checks them, except OD_mappable(). The attributes of safety-relevant PDOs (SRDO) are never set, because the stack
-/// has none.
+/// checks them, except OD_mappable(). The attributes of safety-relevant data objects (SRDO) need CO_SRDO_N above 0: an
+/// entry that a PDO can map can also be mapped into an SRDO of the same direction.
 /// \{
 
 /// Bits of OD_attr_t.
@@ -82,9 +82,9 @@ typedef enum OD_attributes_T {
   ODA_TPDO = 0x04,                     ///< flags P and R
   ODA_RPDO = 0x08,                     ///< flags P and W
   ODA_TRPDO = ODA_TPDO | ODA_RPDO,     ///< flags P, R and W
-  ODA_TSRDO = 0x10,                    ///< transmit SRDO: never set
-  ODA_RSRDO = 0x20,                    ///< receive SRDO: never set
-  ODA_TRSRDO = ODA_TSRDO | ODA_RSRDO,  ///< both: never set
+  ODA_TSRDO = 0x10,                    ///< transmit SRDO: flags P and R, and CO_SRDO_N
+  ODA_RSRDO = 0x20,                    ///< receive SRDO: flags P and W, and CO_SRDO_N
+  ODA_TRSRDO = ODA_TSRDO | ODA_RSRDO,  ///< both: flags P, R and W, and CO_SRDO_N
   ODA_MB = 0x40,                       ///< a number of more than one byte: CPU order here, little-endian on the bus
   ODA_STR = 0x80                       ///< text: a shorter value may be written, the first zero ends it
 } OD_attributes_t;

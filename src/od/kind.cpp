@@ -70,13 +70,15 @@ void* address_of_number(CO_OBJ& obj, unsigned storage) {
 
 // Returns the permissions of SDO and PDO as bits ODA_….
 OD_attr_t rights_of(const CO_OBJ& obj) {
+  constexpr unsigned transmit = CO_SRDO_N > 0 ? unsigned{ODA_TPDO} | ODA_TSRDO : unsigned{ODA_TPDO};
+  constexpr unsigned receive = CO_SRDO_N > 0 ? unsigned{ODA_RPDO} | ODA_RSRDO : unsigned{ODA_RPDO};
   const bool mappable = CO_IS_PDOMAP(obj.Key) != 0;
   unsigned rights = 0;
   if (CO_IS_READ(obj.Key) != 0) {
-    rights |= mappable ? unsigned{ODA_SDO_R} | ODA_TPDO : unsigned{ODA_SDO_R};
+    rights |= mappable ? unsigned{ODA_SDO_R} | transmit : unsigned{ODA_SDO_R};
   }
   if (CO_IS_WRITE(obj.Key) != 0) {
-    rights |= mappable ? unsigned{ODA_SDO_W} | ODA_RPDO : unsigned{ODA_SDO_W};
+    rights |= mappable ? unsigned{ODA_SDO_W} | receive : unsigned{ODA_SDO_W};
   }
   return static_cast<OD_attr_t>(rights);
 }

@@ -159,7 +159,7 @@ TEST_CASE("OD_getSub: a number has its length on the bus, its variable, and ODA_
     const OD_IO_t io = variable(node, one.index);
     const unsigned many = one.length > 1 ? ODA_MB : 0;
     OD_stream_t without_mapping = io.stream;
-    without_mapping.attribute = static_cast<OD_attr_t>(io.stream.attribute & ~unsigned{ODA_TRPDO});
+    without_mapping.attribute = static_cast<OD_attr_t>(io.stream.attribute & ~(unsigned{ODA_TRPDO} | ODA_TRSRDO));
     check_stream(without_mapping, one.memory, one.length, ODA_SDO_RW | many);
     CHECK(io.stream.index == one.index);
   }
@@ -205,6 +205,8 @@ TEST_CASE("OD_getSub: an application-defined type has the length of Size, 0 if u
 }
 
 TEST_CASE("OD_getSub: the attributes are the access rights of the network") {
+  constexpr unsigned transmit = CO_SRDO_N > 0 ? ODA_TSRDO : 0;
+  constexpr unsigned receive = CO_SRDO_N > 0 ? ODA_RSRDO : 0;
   static std::uint8_t u8 = 0;
   const struct {
     std::uint32_t flags;
@@ -214,10 +216,10 @@ TEST_CASE("OD_getSub: the attributes are the access rights of the network") {
                {CO_OBJ_____R_, ODA_SDO_R, false},
                {CO_OBJ______W, ODA_SDO_W, false},
                {CO_OBJ_____RW, ODA_SDO_RW, false},
-               {CO_OBJ____PR_, ODA_SDO_R | ODA_TPDO, true},
-               {CO_OBJ____P_W, ODA_SDO_W | ODA_RPDO, true},
-               {CO_OBJ____PRW, ODA_SDO_RW | ODA_TRPDO, true},
-               {CO_OBJ___APRW, ODA_SDO_RW | ODA_TRPDO, true},
+               {CO_OBJ____PR_, ODA_SDO_R | ODA_TPDO | transmit, true},
+               {CO_OBJ____P_W, ODA_SDO_W | ODA_RPDO | receive, true},
+               {CO_OBJ____PRW, ODA_SDO_RW | ODA_TRPDO | transmit | receive, true},
+               {CO_OBJ___APRW, ODA_SDO_RW | ODA_TRPDO | transmit | receive, true},
                {CO_OBJ____P__, 0, false},
                {CO_OBJ__N__RW, ODA_SDO_RW, false}};
   for (const auto& one : cases) {
