@@ -17,6 +17,8 @@ MODULES = ["wire", "hal", "base", "dictionary", "storage", "service", "od", "nod
 # A service that extends another one includes it.
 EXTENDS = {"mpdo": "pdo"}
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
+# Headers of the stack that codict includes: they need no configuration.
+CODICT_STACK = {"lexican/srdo.hpp"}
 # Headers of the standard library that need neither an operating system nor allocation.
 FREESTANDING = {
     "algorithm", "array", "climits", "cstddef", "cstdint", "cstring", "initializer_list", "iterator", "limits", "tuple",
@@ -85,7 +87,7 @@ class Tree:
         return None
 
     def in_codict(self, file, name, system):
-        if system:
+        if system or name in CODICT_STACK:
             return None
         here = file.relative_to(self.root / "tools/codict/src").parts[0]
         there = Path(name).parts[0]

@@ -202,3 +202,16 @@ TEST_CASE("doc: the same device gives the same page byte for byte") {
   CHECK(html(device_of(drive), {}) == html(device_of(drive), {}));
   CHECK(html(device_of(""), {}) == html(device_of(""), {}));
 }
+
+TEST_CASE("doc: the frames of SRDOs and the global fail-safe command are listed") {
+  const std::string text =
+      markdown(device_of("[1300]\nParameterName=GFC\nObjectType=7\nDataType=5\nAccessType=rw\nDefaultValue=1\n"
+                         "[1302]\nParameterName=SRDO\nObjectType=9\nSubNumber=3\n"
+                         "[1302sub1]\nParameterName=Direction\nDataType=5\nAccessType=rw\nDefaultValue=2\n"
+                         "[1302sub5]\nParameterName=COB-ID 1\nDataType=7\nAccessType=rw\nDefaultValue=0x107\n"
+                         "[1302sub6]\nParameterName=COB-ID 2\nDataType=7\nAccessType=rw\nDefaultValue=0x108\n"),
+               for_node(5));
+  CHECK(has(text, "| 001h | GFC | 1300h |\n"));
+  CHECK(has(text, "| 107h | SRDO 2 received, plain | 1302h:5 |\n"));
+  CHECK(has(text, "| 108h | SRDO 2 received, inverse | 1302h:6 |\n"));
+}

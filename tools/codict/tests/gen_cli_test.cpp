@@ -205,3 +205,31 @@ TEST_CASE("codict gen: wrong usage ends with status 2") {
   test::write_bytes(directory / "out", "a file");
   CHECK(run(directory, small + " -o out/new").status == 2);  // "out" is a file
 }
+
+TEST_CASE("codict gen: --embed-eds generates the EDS that --eds writes") {
+  const test::Directory directory;
+  CHECK(run(directory, small + " -o new --eds shipped.eds --embed-eds plain").status == 0);
+  const std::string eds = bytes_of(directory / "shipped.eds");
+  CHECK(eds.find("FileName=shipped.eds\r\n") != std::string::npos);
+  CHECK(eds.find("[1021]\r\n") != std::string::npos);
+  CHECK(bytes_of(directory / "new/small_od.c")
+            .find("static const uint8_t bytes_1021_0[" + std::to_string(eds.size()) + "]") != std::string::npos);
+  CHECK(run(directory, small + " -o new --eds shipped.eds --embed-eds plain --check").status == 0);
+  CHECK(run(directory, small + " -o new --embed-eds zlib --check").status == 1);
+  CHECK(run(directory, small + " -o new --embed-eds gzip").status == 2);
+}
+
+TEST_CASE("codict gen: an object of --error-bits that cannot show them is named") {
+  const test::Directory directory;
+  std::ofstream(directory / "bits.eds") << "[2100]\nParameterName=Bits\nObjectType=7\nDataType=10\nAccessType=ro\n"
+                                           "[2101]\nParameterName=Other\nObjectType=7\nDataType=10\nAccessType=rw\n";
+  CHECK(run(directory, "bits.eds -o new --force --error-bits 2100").status == 0);
+  CHECK(run(directory, "bits.eds -o new --force --error-bits 0x2100:0").status == 0);
+  const Ran writable = run(directory, "bits.eds -o new --force --error-bits 2101");
+  CHECK(writable.status == 1);
+  CHECK(writable.err.find("--error-bits 2101h sub 0: no OCTET_STRING that the network can only read\n") !=
+        std::string::npos);
+  const Ran malformed = run(directory, "bits.eds -o new --force --error-bits bits");
+  CHECK(malformed.status == 2);
+  CHECK(malformed.err.find("--error-bits bits: the form is INDEX or INDEX:SUB, hexadecimal\n") != std::string::npos);
+}

@@ -99,14 +99,14 @@ void GeneratedNode::say(std::uint32_t identifier, std::string_view hex_bytes) {
   settle();
 }
 
-GeneratedNode::Frame GeneratedNode::ask(const Frame& request) {
-  while (client_.read()) {
-  }
+void GeneratedNode::request(const Frame& request) {
   CO_IF_FRM frame{0x600U + id, {}, 8};
   std::copy(request.begin(), request.end(), frame.Data);
   client_.send(frame);
+}
+
+GeneratedNode::Frame GeneratedNode::next_answer() {
   for (int n = 0; n < enough; ++n) {
-    process();
     while (const auto heard = client_.read()) {
       if (heard->Identifier == 0x580U + id) {
         Frame answer{};
@@ -114,8 +114,16 @@ GeneratedNode::Frame GeneratedNode::ask(const Frame& request) {
         return answer;
       }
     }
+    process();
   }
   return {};
+}
+
+GeneratedNode::Frame GeneratedNode::ask(const Frame& frame) {
+  while (client_.read()) {
+  }
+  request(frame);
+  return next_answer();
 }
 
 std::string GeneratedNode::sent_by(const std::function<void()>& call) {
@@ -159,6 +167,56 @@ std::string GeneratedNode::read(std::uint16_t index, std::uint8_t sub_index) {
       return text;
     }
   }
+}
+
+namespace {
+
+// CRC of a block transfer: polynomial 1021h, start 0000h. [301:7.2.4.3.16]
+std::uint16_t crc_of(const std::string& bytes) {
+  unsigned crc = 0;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned>(static_cast<unsigned char>(byte)) << 8;
+    for (int bit = 0; bit < 8; ++bit) {
+      crc = ((crc & 0x8000U) != 0 ? crc << 1 ^ 0x1021U : crc << 1) & 0xFFFFU;
+    }
+  }
+  return static_cast<std::uint16_t>(crc);
+}
+
+}  // namespace
+
+// Uploads in blocks of 127 segments, with CRC. [301:7.2.4.3.12 to 7.2.4.3.15]
+std::string GeneratedNode::read_block(std::uint16_t index, std::uint8_t sub_index) {
+  constexpr std::uint8_t blksize = 127;
+  Frame answer =
+      ask({0xA4, static_cast<std::uint8_t>(index), static_cast<std::uint8_t>(index >> 8), sub_index, blksize, 0});
+  if (answer[0] != 0xC6) {
+    return "";
+  }
+  const std::uint32_t size = word(&answer[4]);
+  std::string bytes;
+  request({0xA3});
+  for (std::uint8_t seqno = 1;; ++seqno) {
+    answer = next_answer();
+    if ((answer[0] & 0x7FU) != seqno) {
+      return "";
+    }
+    bytes.append(&answer[1], &answer[1] + 7);
+    const bool is_last = (answer[0] & 0x80U) != 0;
+    if (is_last || seqno == blksize) {
+      request({0xA2, seqno, blksize});
+      seqno = 0;
+    }
+    if (is_last) {
+      break;
+    }
+  }
+  answer = next_answer();
+  bytes.resize(bytes.size() - (answer[0] >> 2 & 7U));
+  request({0xA1});
+  settle();
+  const bool is_end = (answer[0] & 0xE3U) == 0xC1 && (answer[1] | answer[2] << 8) == crc_of(bytes);
+  return is_end && bytes.size() == size ? bytes : "";
 }
 
 // Downloads expedited or segmented. [301:7.2.4.3.3, 7.2.4.3.4]

@@ -43,6 +43,8 @@ class GeneratedNode {
 
   /// Uploads an object. Returns its bytes in hexadecimal, "01 02", or "abort 06020000".
   std::string read(std::uint16_t index, std::uint8_t sub_index);
+  /// Uploads an object by block transfer. Returns its bytes; empty after an abort, or if the CRC is wrong.
+  std::string read_block(std::uint16_t index, std::uint8_t sub_index);
   /// Downloads to an object. Returns "ok" or "abort 06090031".
   std::string write(std::uint16_t index, std::uint8_t sub_index, std::string_view hex_bytes);
   /// Transmits a frame to the node.
@@ -58,6 +60,8 @@ class GeneratedNode {
  private:
   using Frame = std::array<std::uint8_t, 8>;
   Frame ask(const Frame& request);
+  void request(const Frame& request);
+  Frame next_answer();
   void process();
   void settle();
 

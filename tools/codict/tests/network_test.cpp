@@ -461,3 +461,29 @@ TEST_CASE("network: many PDOs with one COB-ID need limited time and memory") {
   check_all(network, links, findings);
   CHECK(traffic_of(network, links, findings).messages.size() > 720);
 }
+
+TEST_CASE("network: SRDOs are transmitted with their refresh time by one node and received by others") {
+  const auto srdo = [](const char* direction) {
+    return record(0x1301, {{0, "6"}, {1, direction}, {2, "25"}, {3, "20"}, {4, "254"}, {5, "0x103"}, {6, "0x104"}}) +
+           record(0x1381, {{0, "2"}, {1, "0x20000010"}, {2, "0x20000010"}}) + variable(0x2000, 6, "0") +
+           variable(0x1300, 5, "1");
+  };
+  const Network network = network_of({commissioned(2, srdo("1")), commissioned(3, srdo("2"))});
+  NetworkFindings findings(network);
+  const Traffic traffic = traffic_of(network, links_of(network), findings);
+  for (const auto& [service, identifier] :
+       {std::pair("SRDO 1 transmitted, plain", 0x103U), {"SRDO 1 transmitted, inverse", 0x104U}}) {
+    CAPTURE(service);
+    const auto message = std::find_if(traffic.messages.begin(), traffic.messages.end(),
+                                      [name = service](const Message& one) { return one.service == name; });
+    REQUIRE(message != traffic.messages.end());
+    CHECK(message->node == 0);
+    CHECK(message->frame.identifier == identifier);
+    CHECK(message->frame.bytes == 2);
+    CHECK(message->usual_period == 25000000);
+  }
+  CHECK(std::none_of(traffic.messages.begin(), traffic.messages.end(),
+                     [](const Message& one) { return one.service.find("received") != std::string::npos; }));
+  CHECK(found({commissioned(2, srdo("1")), commissioned(3, srdo("2"))}).find("net-cob-id") == std::string::npos);
+  CHECK(found({commissioned(2, srdo("1")), commissioned(3, srdo("1"))}).find("net-cob-id: ") != std::string::npos);
+}

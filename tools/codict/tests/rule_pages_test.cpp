@@ -120,10 +120,12 @@ std::string list_of_objects(const char* name, ListKind kind, const std::vector<P
   return text;
 }
 
-std::string in_eds_device(const std::string& example) {
+// `more`: fixture with further sections of the device; may be empty.
+std::string in_eds_device(const std::string& example, const std::string& more) {
   const std::vector<Part> own = parts_of(example);
   std::vector<Part> parts;
-  for (const Part& part : parts_of(test::bytes_of(test::fixture("rules/device.eds")))) {
+  const std::string further = more.empty() ? "" : "\n" + test::bytes_of(test::fixture(more));
+  for (const Part& part : parts_of(test::bytes_of(test::fixture("rules/device.eds")) + further)) {
     if (!has_part(own, part.name)) {
       parts.push_back(part);
     }
@@ -234,7 +236,9 @@ Findings judge(const Rule& rule, const Example& example) {
     Source source(name, example.is_whole() ? example.text : in_xml_device(example.text));
     return judge<xdd::Document>(rule, std::move(source), xdd::read, xdd::suppressions);
   }
-  Source source(name, example.is_whole() ? example.text : in_eds_device(example.text));
+  const bool is_of_srdo = rule.id.find("srdo-") != std::string_view::npos;
+  Source source(name,
+                example.is_whole() ? example.text : in_eds_device(example.text, is_of_srdo ? "rules/srdo.eds" : ""));
   return judge<eds::Document>(rule, std::move(source), eds::read, eds::suppressions);
 }
 

@@ -60,8 +60,9 @@ void check_one(const Device& device, const CobId& cob_id, Findings& findings) {
     findings.add(rules::cob_id_form, span_of(device, cob_id),
                  fmt::format("COB-ID {:X}h has more than 11 bits, but bit 29 is 0", cob_id.value),
                  "set bit 29, or use an 11-bit identifier");
-  } else if (range != nullptr && !is_default_sdo(cob_id) && !is_sdo_client(cob_id)) {
-    // SDO clients are excluded because they may use the COB-IDs of a default SDO server, or 0 while unconfigured.
+  } else if (range != nullptr && !cob_id.is_safety && !is_default_sdo(cob_id) && !is_sdo_client(cob_id)) {
+    // SRDOs and the GFC have COB-IDs that CiA 301 reserves; check_srdos() checks them. SDO clients are excluded because
+    // they may use the COB-IDs of a default SDO server, or 0 while unconfigured.
     findings.add(rules::cob_id_restricted, span_of(device, cob_id),
                  fmt::format("{} is restricted by CiA 301 ({})", title_of(device, cob_id), range->use),
                  "choose another COB-ID, or disable the service by bit 31");

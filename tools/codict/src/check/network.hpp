@@ -22,6 +22,9 @@ void check_cob_ids(const Device& device, Findings& findings);
 /// Checks that mandatory objects exist, and the fields of objects that configure services.
 void check_services(const Device& device, Findings& findings);
 
+/// Checks SRDOs, their signatures, and PDOs that map their objects. [EN 50325-5]
+void check_srdos(const Device& device, Findings& findings);
+
 namespace rules {
 extern const Rule pdo_pair;
 extern const Rule pdo_object;
@@ -49,6 +52,13 @@ extern const Rule sdo_default;
 extern const Rule consumer_entry;
 extern const Rule consumer_twice;
 extern const Rule sync_window;
+extern const Rule srdo_missing;
+extern const Rule srdo_parameter;
+extern const Rule srdo_mapping;
+extern const Rule srdo_object;
+extern const Rule srdo_signature;
+extern const Rule srdo_signature_zero;
+extern const Rule srdo_pdo;
 }  // namespace rules
 
 const std::vector<const Rule*>& network_rules();

@@ -35,16 +35,30 @@ const Rule sdo_default{"sdo-default", Severity::warning, "default SDO server wit
 const Rule consumer_entry{"heartbeat-consumer", Severity::error, "malformed heartbeat consumer entry"};
 const Rule consumer_twice{"heartbeat-consumer-twice", Severity::error, "two heartbeat consumer entries for one node"};
 const Rule sync_window{"sync-window", Severity::warning, "SYNC window longer than the SYNC cycle"};
+const Rule srdo_missing{"srdo-missing", Severity::error, "SRDO without a parameter, mapping, signature or 13FEh"};
+const Rule srdo_parameter{"srdo-parameter", Severity::error, "invalid parameter of an SRDO"};
+const Rule srdo_mapping{"srdo-mapping", Severity::error, "SRDO with an invalid number or length of mapped objects"};
+const Rule srdo_object{"srdo-object", Severity::error,
+                       "SRDO maps an object that is missing, not mappable or of another length"};
+const Rule srdo_signature{"srdo-signature", Severity::error, "signature in 13FFh differs from that of the SRDO"};
+const Rule srdo_signature_zero{"srdo-signature-zero", Severity::warning,
+                               "SRDO without a signature, although 13FEh is A5h (valid)"};
+const Rule srdo_pdo{"srdo-pdo", Severity::warning, "PDO maps an object that an SRDO maps, too"};
 
 }  // namespace rules
 
 const std::vector<const Rule*>& network_rules() {
   using namespace rules;
   static const std::vector<const Rule*> all = {
-      &pdo_pair,      &pdo_object,       &pdo_access,       &pdo_bits,          &pdo_part,     &pdo_length,  &pdo_gap,
-      &pdo_empty,     &pdo_mapped_count, &pdo_dummy,        &pdo_granularity,   &pdo_type,     &pdo_time,    &pdo_sync,
-      &multiplexed,   &multiplexed_list, &multiplexed_type, &cob_id_restricted, &cob_id_twice, &cob_id_form, &mandatory,
-      &error_control, &sdo_default,      &consumer_entry,   &consumer_twice,    &sync_window};
+      &pdo_pair,         &pdo_object,        &pdo_access,      &pdo_bits,
+      &pdo_part,         &pdo_length,        &pdo_gap,         &pdo_empty,
+      &pdo_mapped_count, &pdo_dummy,         &pdo_granularity, &pdo_type,
+      &pdo_time,         &pdo_sync,          &multiplexed,     &multiplexed_list,
+      &multiplexed_type, &cob_id_restricted, &cob_id_twice,    &cob_id_form,
+      &mandatory,        &error_control,     &sdo_default,     &consumer_entry,
+      &consumer_twice,   &sync_window,       &srdo_missing,    &srdo_parameter,
+      &srdo_mapping,     &srdo_object,       &srdo_signature,  &srdo_signature_zero,
+      &srdo_pdo};
   return all;
 }
 

@@ -43,6 +43,7 @@ void check_all(const Device& device, Findings& findings) {
   check_multiplexed(device, findings);
   check_cob_ids(device, findings);
   check_services(device, findings);
+  check_srdos(device, findings);
 }
 
 const std::vector<const Rule*>& all_rules() {

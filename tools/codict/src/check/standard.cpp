@@ -13,10 +13,10 @@ namespace lexican::codict::check {
 
 namespace {
 
-constexpr std::uint16_t u8 = type_code::unsigned8;
-constexpr std::uint16_t u16 = type_code::unsigned16;
-constexpr std::uint16_t u32 = type_code::unsigned32;
-constexpr std::uint16_t text = type_code::visible_string;
+constexpr std::uint16_t code8 = type_code::unsigned8;
+constexpr std::uint16_t code16 = type_code::unsigned16;
+constexpr std::uint16_t code32 = type_code::unsigned32;
+constexpr std::uint16_t text_code = type_code::visible_string;
 
 struct Indexes {
   std::uint16_t first;
@@ -59,17 +59,23 @@ struct Type {
 
 // Data types by sub-index. A VAR has sub-index 0 only; sub-index 0 of all other objects is UNSIGNED8 and not listed.
 constexpr std::array<Type, 33> types = {{
-    {{0x1000, 0x1000}, 0, 0, u32},        {{0x1001, 0x1001}, 0, 0, u8},        {{0x1002, 0x1002}, 0, 0, u32},
-    {{0x1003, 0x1003}, 1, last_sub, u32}, {{0x1005, 0x1007}, 0, 0, u32},       {{0x1008, 0x100A}, 0, 0, text},
-    {{0x100C, 0x100C}, 0, 0, u16},        {{0x100D, 0x100D}, 0, 0, u8},        {{0x1010, 0x1011}, 1, last_sub, u32},
-    {{0x1012, 0x1014}, 0, 0, u32},        {{0x1015, 0x1015}, 0, 0, u16},       {{0x1016, 0x1016}, 1, last_sub, u32},
-    {{0x1017, 0x1017}, 0, 0, u16},        {{0x1018, 0x1018}, 1, 4, u32},       {{0x1019, 0x1019}, 0, 0, u8},
-    {{0x1020, 0x1020}, 1, last_sub, u32}, {{0x1026, 0x1026}, 1, last_sub, u8}, {{0x1027, 0x1027}, 1, last_sub, u16},
-    {{0x1028, 0x1028}, 1, last_sub, u32}, {{0x1029, 0x1029}, 1, last_sub, u8}, {{0x1200, 0x12FF}, 1, 2, u32},
-    {{0x1200, 0x12FF}, 3, 3, u8},         {{0x1400, 0x15FF}, 1, 1, u32},       {{0x1400, 0x15FF}, 2, 2, u8},
-    {{0x1400, 0x15FF}, 3, 3, u16},        {{0x1400, 0x15FF}, 5, 5, u16},       {{0x1600, 0x17FF}, 1, 0x40, u32},
-    {{0x1800, 0x19FF}, 1, 1, u32},        {{0x1800, 0x19FF}, 2, 2, u8},        {{0x1800, 0x19FF}, 3, 3, u16},
-    {{0x1800, 0x19FF}, 5, 5, u16},        {{0x1800, 0x19FF}, 6, 6, u8},        {{0x1A00, 0x1BFF}, 1, 0x40, u32},
+    {{0x1000, 0x1000}, 0, 0, code32},        {{0x1001, 0x1001}, 0, 0, code8},
+    {{0x1002, 0x1002}, 0, 0, code32},        {{0x1003, 0x1003}, 1, last_sub, code32},
+    {{0x1005, 0x1007}, 0, 0, code32},        {{0x1008, 0x100A}, 0, 0, text_code},
+    {{0x100C, 0x100C}, 0, 0, code16},        {{0x100D, 0x100D}, 0, 0, code8},
+    {{0x1010, 0x1011}, 1, last_sub, code32}, {{0x1012, 0x1014}, 0, 0, code32},
+    {{0x1015, 0x1015}, 0, 0, code16},        {{0x1016, 0x1016}, 1, last_sub, code32},
+    {{0x1017, 0x1017}, 0, 0, code16},        {{0x1018, 0x1018}, 1, 4, code32},
+    {{0x1019, 0x1019}, 0, 0, code8},         {{0x1020, 0x1020}, 1, last_sub, code32},
+    {{0x1026, 0x1026}, 1, last_sub, code8},  {{0x1027, 0x1027}, 1, last_sub, code16},
+    {{0x1028, 0x1028}, 1, last_sub, code32}, {{0x1029, 0x1029}, 1, last_sub, code8},
+    {{0x1200, 0x12FF}, 1, 2, code32},        {{0x1200, 0x12FF}, 3, 3, code8},
+    {{0x1400, 0x15FF}, 1, 1, code32},        {{0x1400, 0x15FF}, 2, 2, code8},
+    {{0x1400, 0x15FF}, 3, 3, code16},        {{0x1400, 0x15FF}, 5, 5, code16},
+    {{0x1600, 0x17FF}, 1, 0x40, code32},     {{0x1800, 0x19FF}, 1, 1, code32},
+    {{0x1800, 0x19FF}, 2, 2, code8},         {{0x1800, 0x19FF}, 3, 3, code16},
+    {{0x1800, 0x19FF}, 5, 5, code16},        {{0x1800, 0x19FF}, 6, 6, code8},
+    {{0x1A00, 0x1BFF}, 1, 0x40, code32},
 }};
 
 void check_kind(const Object& object, Findings& findings) {

@@ -31,12 +31,12 @@ void check_type(const Device& device, const Entry& entry, Findings& findings) {
 // Returns true for elements of an ARRAY: sub-index 0 is their number, FFh describes the structure.
 bool is_element(const Sub& sub) { return sub.sub_index != 0 && sub.sub_index != 0xFF && sub.data_type.value != 0; }
 
-void check_elements(const Object& array, Findings& findings) {
-  const auto first = std::find_if(array.subs.begin(), array.subs.end(), is_element);
-  const auto other = std::find_if(first, array.subs.end(), [first](const Sub& sub) {
+void check_elements(const Object& elements, Findings& findings) {
+  const auto first = std::find_if(elements.subs.begin(), elements.subs.end(), is_element);
+  const auto other = std::find_if(first, elements.subs.end(), [first](const Sub& sub) {
     return is_element(sub) && sub.data_type.value != first->data_type.value;
   });
-  if (other != array.subs.end()) {
+  if (other != elements.subs.end()) {
     findings.add(rules::array_types, other->data_type.span,
                  fmt::format("element is {}, but sub-index {} is {}", type_text(other->data_type.value),
                              first->sub_index, type_text(first->data_type.value)),

@@ -18,10 +18,12 @@
 #include "cli/stores.hpp"
 #include "cli/verify.hpp"
 #include "eds/write.hpp"
+#include "gen/eds.hpp"
 #include "gen/names.hpp"
 #include "gen/write.hpp"
 #include "text/file.hpp"
 #include "text/memory.hpp"
+#include "text/number.hpp"
 #include "xdd/write.hpp"
 
 namespace lexican::codict::cli {
@@ -36,6 +38,7 @@ struct GenOptions {
   std::string stubs;
   std::string verify_source;
   std::vector<std::string> stores;
+  std::vector<std::string> error_bits;
   VerifyOptions verify;
   gen::Options gen;
   bool is_check = false;
@@ -200,6 +203,35 @@ bool show(const Input& input, const Findings& findings, bool shows_notes) {
   return input.findings.count(Severity::error) == 0;
 }
 
+// Parses an object of --error-bits: "0x2100", "2100", "0x2100:1". Returns false if it is malformed.
+bool parse_key(std::string_view text, std::uint32_t& key) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  std::string_view index = text.substr(0, colon);
+  const std::string_view sub_index = colon == text.size() ? std::string_view("0") : text.substr(colon + 1);
+  if (index.substr(0, 2) == "0x") {
+    index.remove_prefix(2);
+  }
+  std::uint64_t first = 0;
+  std::uint64_t second = 0;
+  if (!parse_hex(index, first) || !parse_hex(sub_index, second) || first > 0xFFFF || second > 0xFE) {
+    return false;
+  }
+  key = static_cast<std::uint32_t>(first << 16 | second << 8);
+  return true;
+}
+
+bool parse_error_bits(GenOptions& options) {
+  for (const std::string& object : options.error_bits) {
+    std::uint32_t key = 0;
+    if (!parse_key(object, key)) {
+      print_message(fmt::format("--error-bits {}: the form is INDEX or INDEX:SUB, hexadecimal", object));
+      return false;
+    }
+    options.gen.error_bits.insert(key);
+  }
+  return true;
+}
+
 bool complete(GenOptions& options, const Input& input) {
   options.gen.source = std::filesystem::path(input.source().name()).filename();
   options.gen.node_id = node_id_of(input.device(), 0);
@@ -209,11 +241,34 @@ bool complete(GenOptions& options, const Input& input) {
     print_message("--name: use lower-case letters, digits and single underscores, and no keyword of C");
     return false;
   }
-  return parse_stores(options.stores, options.gen) && check_verify(options.verify);
+  return parse_stores(options.stores, options.gen) && parse_error_bits(options) && check_verify(options.verify);
+}
+
+// Returns false after a message if an object of --error-bits cannot show error status bits.
+bool have_error_bits(const gen::Options& options, const gen::Plan& plan) {
+  return std::all_of(options.error_bits.begin(), options.error_bits.end(), [&plan](std::uint32_t key) {
+    const auto index = static_cast<std::uint16_t>(key >> 16);
+    const auto sub_index = static_cast<std::uint8_t>(key >> 8);
+    const gen::Item* const item = plan.find(index, sub_index);
+    const bool is_right = item != nullptr && item->storage == gen::Storage::error_bits;
+    if (!is_right) {
+      print_message(fmt::format("--error-bits {:04X}h sub {:X}: no OCTET_STRING that the network can only read", index,
+                                sub_index));
+    }
+    return is_right;
+  });
+}
+
+// Returns the name of the EDS: that of --eds, else that of the generated files.
+std::string eds_name(const GenOptions& options) {
+  return options.eds.empty() ? options.gen.name + ".eds" : std::filesystem::path(options.eds).filename().string();
 }
 
 // Completes the result of a plan without errors, and frees the description, because the texts need much memory, too.
 void complete_result(const GenOptions& options, Input input, Result& result) {
+  if (options.gen.embedded_eds != gen::EmbeddedEds::none) {
+    gen::embed_eds(input.description.devices.front(), eds_name(options), options.gen, result.plan);
+  }
   if (!options.eds.empty() || !options.xdd.empty()) {
     result.device = gen::described(std::move(input.description.devices.front()), result.plan);
   }
@@ -246,6 +301,9 @@ int run_gen(GenOptions options) {
   if (!input || !complete(options, *input)) {
     return unusable;
   }
+  if (options.gen.embedded_eds != gen::EmbeddedEds::none) {
+    gen::add_eds_objects(input->description.devices.front());
+  }
   check_all(*input);
   Findings findings;
   Result result;
@@ -253,7 +311,7 @@ int run_gen(GenOptions options) {
   const bool is_planned = findings.count(Severity::error) == 0;
   suppress(*input, catalogue::Origin::generator, findings);
   const bool is_right = show(*input, findings, options.shows_notes);
-  if (!is_planned) {
+  if (!is_planned || !have_error_bits(options.gen, result.plan)) {
     return found;
   }
   if (!is_right && !options.is_forced) {
@@ -286,6 +344,13 @@ Command add_gen(CommandLine& line) {
   command.add_option("--xdd", options->xdd, "Write an XDD of the generated dictionary").check(ends_with("xdd"));
   command.add_option("--stubs", options->stubs,
                      "Write stubs of the application's definitions to this C or C++ file, if it does not exist");
+  const Choices<gen::EmbeddedEds> forms = {{"plain", gen::EmbeddedEds::plain}, {"zlib", gen::EmbeddedEds::zlib}};
+  command.add_choice("--embed-eds", options->gen.embedded_eds, forms,
+                     "Put an EDS of the generated dictionary into 1021h: plain, zlib; 1022h is set to the format");
+  command
+      .add_option("--error-bits", options->error_bits,
+                  "INDEX or INDEX:SUB: an OCTET_STRING that shows error status bits (CO_TEMCY_BITS)")
+      .single_values();
   add_stores(command, options->stores);
   command.add_option("--name", options->gen.name, "Prefix of all names; default: the name of the file");
   const Choices<gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};

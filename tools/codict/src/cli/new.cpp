@@ -89,8 +89,8 @@ void choose_tpdo(const Device& device, project::Options& options) {
 // Returns the settings of co_cfg.h whose value in the preset "full" is too small for the dictionary.
 std::vector<std::pair<std::string, unsigned>> settings_of(const std::string& header, const std::string& prefix) {
   std::vector<std::pair<std::string, unsigned>> settings;
-  for (const auto& [name, number] :
-       {std::pair("RPDO_N", 8U), std::pair("TPDO_N", 8U), std::pair("SSDO_N", 4U), std::pair("CSDO_N", 3U)}) {
+  for (const auto& [name, number] : {std::pair("RPDO_N", 8U), std::pair("TPDO_N", 8U), std::pair("SSDO_N", 4U),
+                                     std::pair("CSDO_N", 3U), std::pair("SRDO_N", 4U)}) {
     const std::string definition = fmt::format("#define {}_OD_{} ", prefix, name);
     const std::size_t at = header.find(definition);
     const auto needed =

@@ -44,6 +44,11 @@ unsigned beside(const Item& item) {
   }
 }
 
+// Returns the bytes of a CO_OBJ_DOM_RO or CO_EMCY_BITS, in RAM and in flash.
+unsigned descriptor_bytes(const Item& item) {
+  return item.storage == Storage::eds ? 3 * address_bytes : item.storage == Storage::error_bits ? 2 * address_bytes : 0;
+}
+
 Cost cost_of_limits(const Plan& plan) {
   Cost cost;
   cost.part = "limits";
@@ -87,6 +92,7 @@ Cost cost_of_constants(const Plan& plan) {
         item.access == Access::constant && (item.storage == Storage::string || item.storage == Storage::domain);
     const std::size_t bytes = item.storage == Storage::constant ? item.form->size
                               : item.storage == Storage::text   ? item.value.text.size() + 1
+                              : item.storage == Storage::eds    ? plan.eds.size()
                               : is_memory                       ? item.capacity
                                                                 : 0U;
     cost.items += bytes != 0 ? 1U : 0U;
@@ -108,6 +114,9 @@ std::vector<Cost> costs_of(const Plan& plan) {
   for (const Item& item : plan.items) {
     costs[item.group].ram += beside(item);
     costs[item.group].flash += beside(item);
+    costs.front().ram += descriptor_bytes(item);
+    costs.front().flash += descriptor_bytes(item);
+    costs.front().items += descriptor_bytes(item) != 0 ? 1U : 0U;
     types.items += beside(item) > 3 * address_bytes ? 1U : 0U;
   }
   types.flash = types.items != 0 ? stored_functions : 0;

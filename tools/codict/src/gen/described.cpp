@@ -35,7 +35,8 @@ Value value_of(const Entry& entry, const Item& item) {
   if (is_error_field(item)) {
     return {};
   }
-  const bool is_of_application = item.storage == Storage::external || item.storage == Storage::application;
+  const bool is_of_application =
+      item.storage == Storage::external || item.storage == Storage::application || item.storage == Storage::shared;
   if (item.value.kind == Value::Kind::none && item.form->bytes != 0 && !is_of_application) {
     return zero_of(*item.form);
   }

@@ -56,9 +56,31 @@ constexpr Place places[] = {
     {0x1017, 0x1017, 0, 0, "CO_THB_PROD", 2, Service::value, false, ""},
     {0x1019, 0x1019, 0, 0, "CO_TSYNC_COUNT", 1, Service::value, false, "USE_SYNC"},
     {0x1020, 0x1020, 1, 2, "CO_TVERIFY_CONFIG", 4, Service::fixed, false, "USE_PARA"},
+    {0x1021, 0x1021, 0, 0, "CO_TDOMAIN_RO", 0, Service::eds, false, ""},
+    {0x1022, 0x1022, 0, 0, "CO_TUNSIGNED16", 2, Service::value, false, ""},
+    {0x1023, 0x1023, 1, 1, "CO_TOS_COMMAND", 0, Service::shared, false, "USE_OBJ_EX"},
+    {0x1023, 0x1023, 2, 2, "CO_TOS_STATUS", 1, Service::shared, false, "USE_OBJ_EX"},
+    {0x1023, 0x1023, 3, 3, "CO_TOS_REPLY", 0, Service::shared, false, "USE_OBJ_EX"},
+    {0x1024, 0x1024, 0, 0, "CO_TOS_MODE", 1, Service::shared, false, "USE_OBJ_EX"},
+    {0x1025, 0x1025, 1, 1, "CO_TOS_COMMAND", 0, Service::shared, false, "USE_OBJ_EX"},
+    {0x1025, 0x1025, 2, 2, "CO_TOS_STATUS", 1, Service::shared, false, "USE_OBJ_EX"},
+    {0x1025, 0x1025, 3, 3, "CO_TOS_REPLY", 0, Service::shared, false, "USE_OBJ_EX"},
+    {0x1026, 0x1026, 1, 1, "CO_TOS_STDIN", 1, Service::shared, false, ""},
+    {0x1026, 0x1026, 2, 3, "CO_TOS_STDOUT", 1, Service::shared, false, ""},
+    {0x1027, 0x1027, 0, 0, "CO_TMODULE_LIST", 1, Service::shared, false, ""},
+    {0x1027, 0x1027, 1, 254, "CO_TMODULE_LIST", 2, Service::shared, false, ""},
     {0x1028, 0x1028, 1, 127, "CO_TEMCY_CONS", 4, Service::value, false, "USE_EMCY"},
     {0x1029, 0x1029, 1, 254, "CO_TERROR_BEHAVIOUR", 1, Service::value, false, ""},
     {0x1200, 0x12FF, 1, 2, "CO_TSDO_ID", 4, Service::value, true, ""},
+    {0x1300, 0x1300, 0, 0, "CO_TGFC", 1, Service::value, false, "USE_GFC"},
+    {0x1301, 0x1340, 1, 1, "CO_TSRDO_COM", 1, Service::value, false, ""},
+    {0x1301, 0x1340, 2, 2, "CO_TSRDO_COM", 2, Service::value, false, ""},
+    {0x1301, 0x1340, 3, 4, "CO_TSRDO_COM", 1, Service::value, false, ""},
+    {0x1301, 0x1340, 5, 6, "CO_TSRDO_COM", 4, Service::value, false, ""},
+    {0x1381, 0x13C0, 0, 0, "CO_TSRDO_MAP", 1, Service::value, false, ""},
+    {0x1381, 0x13C0, 1, 16, "CO_TSRDO_MAP", 4, Service::value, false, ""},
+    {0x13FE, 0x13FE, 0, 0, "CO_TSRDO_VALID", 1, Service::fixed, false, ""},
+    {0x13FF, 0x13FF, 1, 64, "CO_TSRDO_SIGNATURE", 2, Service::value, false, ""},
     {0x1400, 0x15FF, 1, 1, "CO_TPDO_ID", 4, Service::value, true, ""},
     {0x1400, 0x15FF, 2, 2, "CO_TPDO_TYPE", 1, Service::value, false, ""},
     {0x1400, 0x15FF, 3, 3, "CO_TPDO_INHIBIT", 2, Service::value, false, ""},
@@ -131,7 +153,8 @@ const Form& unsigned_form(std::uint8_t bytes) {
 const Place* place_of(std::uint16_t index, std::uint8_t sub_index, bool has_subs) {
   for (const Place& place : places) {
     const bool is_number = place.first == 0x1003 || place.first == 0x1016 || place.type == "CO_TPDO_NUM" ||
-                           place.first == 0x1010 || place.first == 0x1011;
+                           place.first == 0x1010 || place.first == 0x1011 || place.type == "CO_TSRDO_MAP" ||
+                           place.type == "CO_TMODULE_LIST";
     const bool has_shape = sub_index != 0 || has_subs == is_number;
     if (index >= place.first && index <= place.last && sub_index >= place.first_sub && sub_index <= place.last_sub &&
         has_shape) {

@@ -33,6 +33,9 @@ enum class Service : std::uint8_t {
   fixed,     ///< like value, but the value must not be stored in the entry (flag D)
   group,     ///< the entry is a parameter group (CO_PARA)
   consumer,  ///< the entry is a heartbeat consumer (CO_HBCONS)
+  eds,       ///< the entry is the device's own EDS (CO_OBJ_DOM_RO)
+  shared,    ///< the entries of an object are a structure of the application (CO_OS_COMMAND, CO_OS_PROMPT,
+             ///< CO_MODULE_LIST)
 };
 
 /// Entries of the communication profile that a service of the stack uses in one way.
@@ -42,7 +45,7 @@ struct Place {
   std::uint8_t first_sub;
   std::uint8_t last_sub;
   std::string_view type;  ///< "CO_THB_PROD"
-  std::uint8_t bytes;     ///< length of the value in bytes
+  std::uint8_t bytes;     ///< length of the value in bytes; 0: OCTET_STRING or DOMAIN
   Service service;
   bool node_id_relative;
   std::string_view needs;  ///< macro of co_cfg.h that must not be 0; may be empty

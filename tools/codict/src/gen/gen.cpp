@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gen/gen.hpp"
 
+#include "gen/eds.hpp"
 #include "gen/names.hpp"
 
 namespace lexican::codict::gen {
@@ -19,12 +20,22 @@ std::string source_name(const Options& options) {
 
 Output generate(const Device& device, const Options& options, Findings& findings) {
   const std::size_t errors = findings.count(Severity::error);
-  const Plan plan = make_plan(device, options, findings);
+  const bool embeds = options.embedded_eds != EmbeddedEds::none;
+  Device with_eds;
+  if (embeds) {
+    with_eds = device;
+    add_eds_objects(with_eds);
+  }
+  const Device& source = embeds ? with_eds : device;
+  Plan plan = make_plan(source, options, findings);
   if (findings.count(Severity::error) != errors) {
     return {};
   }
+  if (embeds) {
+    embed_eds(source, options.name + ".eds", options, plan);
+  }
   Output output = generate(plan, options);
-  output.device = described(device, plan);
+  output.device = described(source, plan);
   return output;
 }
 

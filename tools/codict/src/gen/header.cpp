@@ -19,15 +19,17 @@ struct Instances {
 };
 
 constexpr Instances instances[] = {
-    {0x1200, 0x127F, "CO_SSDO_N", ""}, {0x1280, 0x12FF, "CO_CSDO_N", "USE_CSDO"}, {0x1400, 0x15FF, "CO_RPDO_N", ""},
-    {0x1600, 0x17FF, "CO_RPDO_N", ""}, {0x1800, 0x19FF, "CO_TPDO_N", ""},         {0x1A00, 0x1BFF, "CO_TPDO_N", ""},
+    {0x1200, 0x127F, "CO_SSDO_N", ""}, {0x1280, 0x12FF, "CO_CSDO_N", "USE_CSDO"}, {0x1301, 0x1340, "CO_SRDO_N", ""},
+    {0x1381, 0x13C0, "CO_SRDO_N", ""}, {0x1400, 0x15FF, "CO_RPDO_N", ""},         {0x1600, 0x17FF, "CO_RPDO_N", ""},
+    {0x1800, 0x19FF, "CO_TPDO_N", ""}, {0x1A00, 0x1BFF, "CO_TPDO_N", ""},
 };
 
 // Returns the service that a setting counts: "TPDO" in "the description has TPDO 12".
 const char* service_of(const std::string& macro) {
   static const std::map<std::string, const char*> services = {
       {"CO_SSDO_N", "SDO server"}, {"CO_CSDO_N", "SDO client"},           {"CO_RPDO_N", "RPDO"},
-      {"CO_TPDO_N", "TPDO"},       {"CO_HBCONS_N", "heartbeat consumer"}, {"CO_EMCY_CONS_N", "EMCY consumer"}};
+      {"CO_TPDO_N", "TPDO"},       {"CO_HBCONS_N", "heartbeat consumer"}, {"CO_EMCY_CONS_N", "EMCY consumer"},
+      {"CO_SRDO_N", "SRDO"}};
   return services.at(macro);
 }
 
@@ -78,6 +80,7 @@ class Configuration {
  private:
   void add(const Item& item) {
     need(item.place == nullptr ? "" : item.place->needs);
+    need(item.storage == Storage::error_bits ? "USE_EMCY" : "");
     const auto* const service = std::find_if(std::begin(instances), std::end(instances), [&](const Instances& one) {
       return item.index >= one.first && item.index <= one.last;
     });
@@ -87,6 +90,9 @@ class Configuration {
     }
     if (item.index == 0x1016 || item.index == 0x1028) {
       raise(item.index == 0x1016 ? "CO_HBCONS_N" : "CO_EMCY_CONS_N", item.sub_index);
+    }
+    if (item.index == 0x13FF) {
+      raise("CO_SRDO_N", item.sub_index);
     }
   }
 
@@ -240,6 +246,12 @@ std::string macro_of(const Item& item, const Options& options) {
 
 std::string external_of(const Item& item, const Options& options) {
   return fmt::format("{}_{:04X}_{:X}", options.name, item.index, item.sub_index);
+}
+
+std::string shared_of(const Item& item, const Options& options) {
+  constexpr std::uint16_t os_command = 0x1023;
+  constexpr std::uint16_t os_mode = 0x1024;  // uses the structure of 1023h
+  return fmt::format("{}_{:04X}", options.name, item.index == os_mode ? os_command : item.index);
 }
 
 std::string struct_of(const Group& group, const Options& options) { return options.name + "_" + group.id; }

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "gen/eds.hpp"
 #include "gen/names.hpp"
 #include "gen/parts.hpp"
 #include "gen/rules.hpp"
+#include "model/srdo.hpp"
 
 namespace lexican::codict::gen {
 
@@ -17,6 +19,9 @@ constexpr std::uint32_t cob_id_off = 0x80000000;
 
 constexpr std::uint16_t first_variable = 0x00A0;  // below are definitions of types
 constexpr std::uint16_t error_register = 0x1001;
+constexpr std::uint16_t manufacturer_status = 0x1002;
+constexpr std::uint16_t module_list = 0x1027;
+constexpr std::uint16_t eds_format = 0x1022;
 
 constexpr bool is_between(std::uint16_t index, std::uint16_t first, std::uint16_t last) {
   return index >= first && index <= last;
@@ -31,8 +36,8 @@ bool is_fixed(const Item& item, bool has_subs) {
   if (item.index == 0x1018) {
     return item.sub_index != 4;
   }
-  return item.index == 0x1000 || is_between(item.index, 0x1005, 0x1007) || is_between(item.index, 0x1012, 0x1019) ||
-         is_between(item.index, 0x1200, 0x1BFF);
+  return item.index == 0x1000 || item.index == eds_format || is_between(item.index, 0x1005, 0x1007) ||
+         is_between(item.index, 0x1012, 0x1019) || is_between(item.index, 0x1200, 0x1BFF);
 }
 
 // Returns false for names of RAM and of constants, which are not stored.
@@ -112,7 +117,7 @@ class Items {
     item.span = entry.span;
     item.access = entry.access.value;
     item.pdo = entry.pdo_mapping.value;
-    item.place = place_of(item.index, sub_index, has_subs);
+    item.place = has_own_values(object) ? nullptr : place_of(item.index, sub_index, has_subs);
     if (!set_form(item, entry) || !set_value(item, object, entry, has_subs)) {
       return;
     }
@@ -126,6 +131,13 @@ class Items {
         plan_.items.push_back(std::move(item));
       }
     }
+  }
+
+  // Returns true for a module list with default values, which are generated as variables.
+  static bool has_own_values(const Object& object) {
+    return object.index == module_list && std::any_of(object.subs.begin(), object.subs.end(), [](const Sub& sub) {
+             return sub.sub_index != 0 && value_in_force(sub).kind != Value::Kind::none;
+           });
   }
 
   static std::string name_of(const Object& object, const Entry& entry) {
@@ -155,12 +167,17 @@ class Items {
   }
 
   void set_form_of_place(Item& item) {
-    const bool fits =
-        item.form != nullptr && is_integer(data_type(item.form->code).kind) && item.form->bytes == item.place->bytes;
+    const bool is_number = item.place->bytes != 0;
+    const Form& form =
+        is_number ? unsigned_form(item.place->bytes)
+                  : *form_of(item.place->service == Service::eds ? type_code::domain : type_code::octet_string);
+    const bool fits = item.form != nullptr && item.form->bytes == form.bytes &&
+                      (is_number ? is_integer(data_type(item.form->code).kind) : item.form == &form);
     if (!fits) {
-      item.form = &unsigned_form(item.place->bytes);
+      item.form = &form;
       findings_.add(rules::place, item.span,
-                    fmt::format("data type differs from {} of CiA 301, which is used", data_type(item.form->code).name),
+                    fmt::format("data type differs from {} of {}, which is used", data_type(form.code).name,
+                                is_between(item.index, 0x1300, 0x13FF) ? "EN 50325-5" : "CiA 301"),
                     "correct the data type");
     }
     item.type = item.place->type;
@@ -168,7 +185,7 @@ class Items {
 
   bool set_access(Item& item, const Entry& entry, bool is_domain) {
     if (item.access == Access::unknown && is_domain) {
-      item.access = Access::rw;
+      item.access = item.place == nullptr ? Access::rw : Access::ro;
     }
     if (item.access == Access::unknown) {
       findings_.add(rules::access, entry.access.is_given ? entry.access.span : entry.span,
@@ -178,7 +195,8 @@ class Items {
   }
 
   bool set_value(Item& item, const Object& object, const Entry& entry, bool has_subs) {
-    item.value = value_in_force(entry);
+    item.value = is_shared(item) ? Value() : value_in_force(entry);
+    set_eds_value(item);
     take_none_for_octets(item);
     const bool is_number = item.form->bytes != 0 && data_type(item.form->code).kind != TypeKind::real;
     const bool is_text = is_number && item.value.kind == Value::Kind::text;  // text of another data type, or a time
@@ -193,6 +211,20 @@ class Items {
     }
     correct_cob_id(item);
     return true;
+  }
+
+  static bool is_shared(const Item& item) { return item.place != nullptr && item.place->service == Service::shared; }
+
+  void set_eds_value(Item& item) {
+    if (options_.embedded_eds == EmbeddedEds::none) {
+      return;
+    }
+    if (item.place != nullptr && item.place->service == Service::eds) {
+      item.value = {};
+    } else if (item.index == eds_format && item.place != nullptr) {
+      item.value = {};
+      set_number(item, format_of(options_.embedded_eds));
+    }
   }
 
   void take_none_for_octets(Item& item) {
@@ -226,7 +258,9 @@ class Items {
       item.value.adds_node_id = type == "CO_TEMCY_ID";
     } else if (type == "CO_TSDO_ID") {
       set_number(item, item.sub_index == 1 ? 0x600 : 0x580);
-    } else if (type == "CO_TPDO_NUM") {
+    } else if (type == "CO_TSRDO_COM" && item.sub_index == 4) {
+      set_number(item, srdo_type);
+    } else if (type == "CO_TPDO_NUM" || (type == "CO_TSRDO_MAP" && item.sub_index == 0)) {
       set_number(item, mapped_objects(object));
     } else if (item.sub_index == 0 && has_subs && item.index != 0x1003) {
       set_number(item, highest_sub(object));
@@ -259,7 +293,11 @@ class Items {
     item.value.adds_node_id = true;
   }
 
+  // An object for SRDOs needs flag P, with which the network can map it into PDOs, too.
   void set_flags(Item& item, const Object& object, const Entry& entry) const {
+    if (entry.node->srdo->value != SrdoAccess::no && item.pdo == PdoMapping::no) {
+      item.pdo = PdoMapping::optional;
+    }
     item.flags = (is_readable(item.access) ? flag_read : 0U) | (is_writable(item.access) ? flag_write : 0U) |
                  (item.pdo != PdoMapping::no ? flag_pdo : 0U) | (item.value.adds_node_id ? flag_node_id : 0U);
     const bool goes_out = item.pdo != PdoMapping::no && item.pdo != PdoMapping::rpdo && is_readable(item.access) &&
@@ -283,20 +321,71 @@ class Items {
   }
 
   void set_storage(Item& item, const Entry& entry, bool has_subs) {
-    if (item.place != nullptr && item.place->service != Service::value) {
-      constexpr Storage of_service[] = {Storage::variable, Storage::variable, Storage::group, Storage::consumer};
+    if (item.place != nullptr && item.place->service == Service::eds) {
+      set_eds(item, entry);
+    } else if (item.place != nullptr && item.place->service != Service::value) {
+      constexpr Storage of_service[] = {Storage::variable, Storage::variable, Storage::group,
+                                        Storage::consumer, Storage::eds,      Storage::shared};
       item.storage = of_service[static_cast<std::size_t>(item.place->service)];
-    } else if (item.place != nullptr || item.index == error_register) {
-      set_variable(item, has_subs);  // the stack reads and writes the value
-    } else if (item.has_own_type || entry.node->extension_io->value) {
+      note_shared(item);
+    } else if (is_error_bits(item)) {
+      set_error_bits(item, entry);
+    } else if (is_written_by_stack(item)) {
+      item.storage = Storage::variable;  // the stack writes the value
+    } else if (item.place == nullptr && (item.has_own_type || entry.node->extension_io->value)) {
       set_own_type(item);
-    } else if (is_external(item, entry)) {
+    } else if (item.place == nullptr && is_external(item, entry)) {
       set_external(item);
-    } else if (item.form->bytes == 0) {
+    } else if (item.place == nullptr && item.form->bytes == 0) {
       set_memory(item, entry);
     } else {
       set_variable(item, has_subs);
     }
+  }
+
+  static bool is_written_by_stack(const Item& item) {
+    return item.index == error_register ||
+           (item.index == manufacturer_status && !item.has_own_type && item.form->bytes != 0);
+  }
+
+  // The EDS is embedded, or its bytes are a default value, or the application defines them.
+  void set_eds(Item& item, const Entry& entry) {
+    if (options_.embedded_eds != EmbeddedEds::none) {
+      item.storage = Storage::eds;
+      item.access = Access::ro;
+      item.flags = flag_read;
+      return;
+    }
+    if (is_writable(item.access) || item.value.kind != Value::Kind::none) {
+      item.type = item.form->type;
+      item.place = nullptr;
+      set_storage(item, entry, false);
+      return;
+    }
+    set_external(item);
+  }
+
+  void note_shared(const Item& item) {
+    if (item.storage == Storage::shared) {
+      findings_.add(rules::external, item.span, "the application defines the structure of the object",
+                    "define it in the application");
+    }
+  }
+
+  // Returns true for an entry that the options declare as error status bits, if it can be one.
+  bool is_error_bits(const Item& item) const {
+    return options_.error_bits.count(item.key()) != 0 && item.form->code == type_code::octet_string &&
+           !is_writable(item.access);
+  }
+
+  // The length of the string is that of the description; 0: as many bytes as the table of errors needs.
+  void set_error_bits(Item& item, const Entry& entry) {
+    const std::size_t length = std::max<std::size_t>(
+        item.value.octets->size(), std::max(entry.node->byte_length->value, entry.node->string_length_min->value));
+    item.storage = Storage::error_bits;
+    item.type = "CO_TEMCY_BITS";
+    item.capacity = static_cast<std::uint32_t>(std::min<std::size_t>(length, UINT8_MAX));
+    item.value = {};
   }
 
   // An object type of the application gets a variable if the entry is a number with a default value.

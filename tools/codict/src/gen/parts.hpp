@@ -16,6 +16,7 @@ constexpr std::uint32_t flag_node_id = 0x40;
 constexpr std::uint32_t flag_direct = 0x80;
 
 void plan_items(const Device& device, const Options& options, Plan& plan, Findings& findings);
+void plan_srdos(Plan& plan, Findings& findings);
 void plan_names(const Options& options, Plan& plan, Findings& findings);
 void plan_groups(const Options& options, Plan& plan, Findings& findings);
 void plan_limited_types(Plan& plan);

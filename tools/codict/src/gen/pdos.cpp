@@ -187,7 +187,7 @@ bool is_constant_mapping(const Plan& plan, const Item& item) {
   const bool is_beyond =
       number != nullptr && (number->flags & flag_direct) != 0 &&
       (number->value.integer.magnitude >= multiplexed || item.sub_index > number->value.integer.magnitude);
-  return item.type == "CO_TPDO_MAP" && (item.flags & flag_direct) != 0 && !is_beyond;
+  return (item.type == "CO_TPDO_MAP" || item.type == "CO_TSRDO_MAP") && (item.flags & flag_direct) != 0 && !is_beyond;
 }
 
 // Makes objects mappable (flag P) that a constant mapping contains. Such a PDO works, but CO_OD_CHECK() rejects a

@@ -115,6 +115,7 @@ Plan make_plan(const Device& device, const Options& options, Findings& findings)
     findings.add(rules::count, {}, fmt::format("dictionary has {} entries, not 1 to {}", plan.entries, most_items),
                  "describe other objects");
   }
+  plan_srdos(plan, findings);
   plan_names(options, plan, findings);
   plan_groups(options, plan, findings);
   plan_limited_types(plan);

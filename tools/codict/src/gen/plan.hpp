@@ -19,15 +19,20 @@ namespace lexican::codict::gen {
 
 enum class Language : unsigned char { c, cpp };
 
+/// The device's own EDS in the generated source.
+enum class EmbeddedEds : unsigned char { none, plain, zlib };
+
 /// Options of the generator.
 struct Options {
   std::string name;    ///< prefix of all generated names: a C identifier
   std::string source;  ///< file name of the description, for the comment at the top
   Language language = Language::c;
-  std::uint8_t node_id = 1;                   ///< node-ID of the node that --verify starts
-  std::uint32_t string_capacity = 32;         ///< bytes of a writable string whose length is not described
-  bool unique_names = false;                  ///< equal names of two entries are an error
-  bool trigger_tpdos = false;                 ///< set flag A for all objects that a TPDO may map
+  std::uint8_t node_id = 1;            ///< node-ID of the node that --verify starts
+  std::uint32_t string_capacity = 32;  ///< bytes of a writable string whose length is not described
+  bool unique_names = false;           ///< equal names of two entries are an error
+  bool trigger_tpdos = false;          ///< set flag A for all objects that a TPDO may map
+  EmbeddedEds embedded_eds = EmbeddedEds::none;
+  std::set<std::uint32_t> error_bits;         ///< keys of the entries that show error status bits (CO_TEMCY_BITS)
   std::map<std::string, std::uint8_t> store;  ///< sub-indexes of 1010h by storage group; 0: the group is not stored
 };
 
@@ -41,6 +46,9 @@ enum class Storage : unsigned char {
   domain,       ///< a CO_OBJ_DOM and its memory
   consumer,     ///< a CO_HBCONS
   group,        ///< a CO_PARA
+  eds,          ///< a CO_OBJ_DOM_RO and the constant bytes of the EDS
+  error_bits,   ///< a CO_EMCY_BITS
+  shared,       ///< in a structure that the application defines for all entries of the object
   external,     ///< in a variable, CO_OBJ_STR, CO_OBJ_STR_RW or CO_OBJ_DOM that the application defines
   application,  ///< known only to the object type, which the application defines
 };
@@ -137,6 +145,7 @@ struct Plan {
   std::vector<Group> groups;
   std::vector<PdoSum> pdos;
   std::map<std::string, unsigned> labels;  ///< number of objects for each CO_countLabel
+  std::string eds;                         ///< bytes of 1021h
   std::set<std::string> unstored;          ///< storage groups that the options keep in RAM
   bool stores_all = false;                 ///< sub-index 1 of 1010h stores all groups
   bool restores_all = false;               ///< sub-index 1 of 1011h restores all groups

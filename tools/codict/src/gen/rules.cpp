@@ -29,6 +29,7 @@ const Rule limits{"gen-limits", Severity::warning, "limits that cannot be checke
 const Rule limits_default{"gen-limits-default", Severity::warning, "default value outside LowLimit and HighLimit"};
 const Rule sub_zero{"gen-sub-0", Severity::warning, "ARRAY or RECORD without sub-index 0"};
 const Rule cob_id{"gen-cob-id", Severity::warning, "missing or wrong COB-ID, corrected"};
+const Rule srdo_signature{"gen-srdo-signature", Severity::note, "signature of an SRDO, filled in"};
 const Rule left_out{"gen-left-out", Severity::note, "disabled object or type definition without an entry"};
 const Rule external{"gen-external", Severity::note, "entry with memory or type of the application"};
 const Rule capacity{"gen-capacity", Severity::note, "string without a maximum length"};
@@ -39,12 +40,12 @@ namespace lexican::codict::gen {
 
 const std::vector<const Rule*>& all_rules() {
   static const std::vector<const Rule*> all = {
-      &rules::type,           &rules::access,   &rules::value,        &rules::value_none,    &rules::node_id,
-      &rules::no_subs,        &rules::place,    &rules::name,         &rules::name_shared,   &rules::count,
-      &rules::store,          &rules::restore,  &rules::store_joined, &rules::store_unused,  &rules::pdo_bits,
-      &rules::pdo_object,     &rules::pdo_off,  &rules::pdo_mappable, &rules::pdo_direction, &rules::limits,
-      &rules::limits_default, &rules::sub_zero, &rules::cob_id,       &rules::left_out,      &rules::external,
-      &rules::capacity};
+      &rules::type,           &rules::access,        &rules::value,        &rules::value_none,    &rules::node_id,
+      &rules::no_subs,        &rules::place,         &rules::name,         &rules::name_shared,   &rules::count,
+      &rules::store,          &rules::restore,       &rules::store_joined, &rules::store_unused,  &rules::pdo_bits,
+      &rules::pdo_object,     &rules::pdo_off,       &rules::pdo_mappable, &rules::pdo_direction, &rules::limits,
+      &rules::limits_default, &rules::sub_zero,      &rules::cob_id,       &rules::left_out,      &rules::external,
+      &rules::capacity,       &rules::srdo_signature};
   return all;
 }
 

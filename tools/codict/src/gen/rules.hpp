@@ -32,6 +32,7 @@ extern const Rule limits;
 extern const Rule limits_default;
 extern const Rule sub_zero;
 extern const Rule cob_id;
+extern const Rule srdo_signature;
 extern const Rule left_out;
 extern const Rule external;
 extern const Rule capacity;

@@ -306,12 +306,31 @@ class SourceText {
                  literal(item.value, *item.form));
       } else if (item.storage == Storage::text) {
         out_.add("static const uint8_t {}[] = {};", named("text", item), string_literal(item.value.text));
+      } else if (item.storage == Storage::eds) {
+        write_eds(item);
+      } else if (item.storage == Storage::error_bits) {
+        out_.add("static CO_EMCY_BITS {} = {{0, {}, 0}};", named("bits", item), item.capacity);
       } else if (has_constant_memory(item)) {
         const bool is_wide = item.form->alignment == 2;
         out_.add("static const {} {}[{}] = {};", is_wide ? "uint16_t" : "uint8_t", named("constant", item),
                  is_wide ? item.capacity / 2 : item.capacity + 1, memory_text(item));
       }
     }
+  }
+
+  // Writes the bytes of the EDS as numbers: C compilers limit the length of a string literal.
+  void write_eds(const Item& item) {
+    constexpr std::size_t in_line = 20;
+    const std::string bytes = named("bytes", item);
+    out_.add("static const uint8_t {}[{}] = {{", bytes, plan_.eds.size());
+    for (std::size_t at = 0; at < plan_.eds.size(); at += in_line) {
+      std::string line;
+      for (const char byte : plan_.eds.substr(at, in_line)) {
+        line += fmt::format("{}0x{:02X},", line.empty() ? "" : " ", static_cast<unsigned char>(byte));
+      }
+      out_.add("    {}", line);
+    }
+    out_.add("}};\nstatic CO_OBJ_DOM_RO {0} = {{0, sizeof {1}, {1}}};", named("eds", item), bytes);
   }
 
   static bool has_constant_memory(const Item& item) {
@@ -556,6 +575,9 @@ class SourceText {
       case Storage::group: return "&" + para_of(item);
       case Storage::external: return "&" + external_of(item, options_);
       case Storage::application: return "0";
+      case Storage::eds: return "&" + named("eds", item);
+      case Storage::error_bits: return "&" + named("bits", item);
+      case Storage::shared: return "&" + shared_of(item, options_);
       case Storage::string:
         if (is_stored) {
           return "&" + named("string", item);

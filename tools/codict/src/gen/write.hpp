@@ -50,6 +50,7 @@ std::string write_verify(const Plan& plan, const Options& options);
 /// \{
 std::string macro_of(const Item& item, const Options& options);     ///< "CLOCK_2100_1"
 std::string external_of(const Item& item, const Options& options);  ///< "clock_2200_0"
+std::string shared_of(const Item& item, const Options& options);    ///< "clock_1023", also for 1024h
 std::string struct_of(const Group& group, const Options& options);  ///< "clock_persist_comm"
 std::string generated_comment(const Options& options);              ///< first lines of every file
 bool needs_para(const Plan& plan);

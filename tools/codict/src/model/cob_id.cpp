@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/pdo.hpp"
+#include "model/srdo.hpp"
 
 namespace lexican::codict {
 
@@ -50,10 +51,35 @@ class Collector {
     }
   }
 
+  // Adds the GFC, whose CAN-ID is fixed, if 1300h is 1, and both frames of each SRDO. [EN 50325-5]
+  void add_safety() {
+    constexpr std::uint32_t global_fail_safe = 0x001;
+    const Entry* const used = device_.find(srdo_index::global_fail_safe, 0);
+    if (used != nullptr && value_in_force(*used).integer == Integer(1)) {
+      CobId gfc = fixed("GFC", global_fail_safe);
+      gfc.index = srdo_index::global_fail_safe;
+      gfc.is_safety = true;
+      all_.push_back(std::move(gfc));
+    }
+    for (const Srdo& srdo : srdos_of(device_)) {
+      add_frame(srdo, 5, "plain");
+      add_frame(srdo, 6, "inverse");
+    }
+  }
+
   std::vector<CobId> take_cob_ids() { return std::move(all_); }
   void add(CobId cob_id) { all_.push_back(std::move(cob_id)); }
 
  private:
+  void add_frame(const Srdo& srdo, std::uint8_t sub_index, const char* frame) {
+    const std::size_t before = all_.size();
+    add("SRDO " + std::to_string(srdo.number) + (srdo.is_transmit() ? " transmitted, " : " received, ") + frame,
+        srdo.communication->index, sub_index, false);
+    if (all_.size() != before) {
+      all_.back().is_safety = true;
+    }
+  }
+
   const Device& device_;
   std::uint8_t node_id_;
   std::vector<CobId> all_;
@@ -74,6 +100,7 @@ std::vector<CobId> cob_ids_of(const Device& device, std::uint8_t node_id) {
   collector.add("EMCY", 0x1014, 0);
   collector.add_range("SDO server", 0x1200, 0x127F, ", request", ", response");
   collector.add_range("SDO client", 0x1280, 0x12FF, ", request", ", response");
+  collector.add_safety();
   collector.add_range("RPDO", 0x1400, 0x15FF, "", "");
   collector.add_range("TPDO", 0x1800, 0x19FF, "", "");
   return collector.take_cob_ids();

@@ -21,20 +21,8 @@ std::uint64_t mapped_count(const Object& mapping) {
 void read_mapping(const Device& device, Pdo& pdo) {
   const std::uint64_t count = mapped_count(*pdo.mapping);
   pdo.is_multiplexed = count == 0xFE || count == 0xFF;
-  for (const Sub& sub : pdo.mapping->subs) {
-    const Value& value = value_in_force(sub);
-    if (sub.sub_index == 0 || sub.sub_index > std::min(count, mapped_limit) || pdo.is_multiplexed ||
-        !value.is_integer() || value.integer.bits() == 0) {
-      continue;
-    }
-    const auto map = static_cast<std::uint32_t>(value.integer.bits());
-    MappedObject mapped;
-    mapped.index = static_cast<std::uint16_t>(map >> 16);
-    mapped.sub_index = static_cast<std::uint8_t>(map >> 8);
-    mapped.bits = static_cast<std::uint8_t>(map);
-    mapped.mapping = &sub;
-    mapped.entry = mapped.is_dummy() ? nullptr : device.find(mapped.index, mapped.sub_index);
-    pdo.mapped.push_back(mapped);
+  if (!pdo.is_multiplexed) {
+    pdo.mapped = mapped_objects(device, *pdo.mapping, mapped_limit);
   }
 }
 
@@ -64,6 +52,26 @@ Directions directions_of(const Entry& entry) {
   directions.send = is_mappable && is_readable(access) && mapping != PdoMapping::rpdo && access != Access::rww;
   directions.receive = is_mappable && is_writable(access) && mapping != PdoMapping::tpdo && access != Access::rwr;
   return directions;
+}
+
+std::vector<MappedObject> mapped_objects(const Device& device, const Object& mapping, std::uint64_t limit) {
+  const std::uint64_t count = std::min(mapped_count(mapping), limit);
+  std::vector<MappedObject> all;
+  for (const Sub& sub : mapping.subs) {
+    const Value& value = value_in_force(sub);
+    if (sub.sub_index == 0 || sub.sub_index > count || !value.is_integer() || value.integer.bits() == 0) {
+      continue;
+    }
+    const auto map = static_cast<std::uint32_t>(value.integer.bits());
+    MappedObject mapped;
+    mapped.index = static_cast<std::uint16_t>(map >> 16);
+    mapped.sub_index = static_cast<std::uint8_t>(map >> 8);
+    mapped.bits = static_cast<std::uint8_t>(map);
+    mapped.mapping = &sub;
+    mapped.entry = mapped.is_dummy() ? nullptr : device.find(mapped.index, mapped.sub_index);
+    all.push_back(mapped);
+  }
+  return all;
 }
 
 unsigned Pdo::bits() const {

@@ -39,6 +39,9 @@ struct MappedObject {
   bool is_dummy() const { return index != 0 && index < 8 && sub_index == 0; }
 };
 
+/// Returns the objects that a mapping parameter maps: at most \a limit, without entries that are 0.
+std::vector<MappedObject> mapped_objects(const Device& device, const Object& mapping, std::uint64_t limit);
+
 struct Pdo {
   bool is_transmit = false;
   std::uint16_t number = 1;  ///< 1…512

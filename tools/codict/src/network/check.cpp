@@ -41,7 +41,8 @@ std::string cob_id_of(const ActivePdo& pdo) { return cob_id_text(pdo.identifier,
 bool is_owned(const CobId& cob_id) {
   const std::string_view service = cob_id.service;
   const auto begins = [service](std::string_view word) { return service.substr(0, word.size()) == word; };
-  const bool is_shared = begins("SYNC") || begins("TIME") || begins("NMT");
+  const bool is_received = cob_id.is_safety && service.find(" received,") != std::string_view::npos;
+  const bool is_shared = begins("SYNC") || begins("TIME") || begins("NMT") || begins("GFC") || is_received;
   return !is_shared && !begins("RPDO") && !begins("SDO client");
 }
 

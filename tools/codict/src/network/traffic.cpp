@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "model/srdo.hpp"
 #include "network/check.hpp"
 #include "network/rules.hpp"
 
@@ -51,6 +52,7 @@ class Collector {
   void add_pdo(const ActivePdo& pdo);
   void add_event_driven(const ActivePdo& pdo, const Frame& frame);
   void add_error_control(std::size_t at);
+  void add_safety(std::size_t at, const CobId& cob_id, Frame frame);
   void add_others(std::size_t at);
 
   const Network& network_;
@@ -135,6 +137,21 @@ void Collector::add_error_control(std::size_t at) {
   }
 }
 
+// Adds a frame of a transmitted SRDO with its refresh time, or the GFC, which is transmitted rarely.
+void Collector::add_safety(std::size_t at, const CobId& cob_id, Frame frame) {
+  if (cob_id.index == srdo_index::global_fail_safe) {
+    add(cob_id.service, at, {frame.identifier, false, false, 0}, 0, 0);
+    return;
+  }
+  for (const Srdo& srdo : srdos_of(network_.nodes[at].device)) {
+    if (srdo.communication->index == cob_id.index && srdo.is_transmit()) {
+      const auto refresh = static_cast<unsigned>(network_.nodes[at].number_or(cob_id.index, 2, 0));
+      frame.bytes = srdo.bytes();
+      add(cob_id.service, at, frame, milliseconds(refresh), milliseconds(refresh));
+    }
+  }
+}
+
 // Adds EMCY with its inhibit time, and SDO, NMT and TIME, which are transmitted rarely.
 void Collector::add_others(std::size_t at) {
   const Node& node = network_.nodes[at];
@@ -145,6 +162,8 @@ void Collector::add_others(std::size_t at) {
     }
     if (cob_id.service == "EMCY") {
       add("EMCY", at, frame, static_cast<Nanoseconds>(node.number_or(0x1015, 0, 0)) * 100 * us, 0);
+    } else if (cob_id.is_safety) {
+      add_safety(at, cob_id, frame);
     } else if (cob_id.service.substr(0, 10) == "SDO server") {
       add(cob_id.service, at, frame, 0, 0);
     } else if (cob_id.service == "TIME" && (cob_id.value & 0x40000000U) != 0) {
