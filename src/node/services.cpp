@@ -222,7 +222,7 @@ void remap(CO_NODE* node) {
   srdo::on_remap(*node);
 #endif
 #if USE_RECORDER
-  recorder::on_remap(node);
+  recorder::on_remap(*node);
 #endif
 }
 
