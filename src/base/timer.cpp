@@ -58,6 +58,20 @@ void program(const CO_TMR& t, uint32_t now) {
   port::set_alarm(*t.Node, first != nullptr ? first->At - now : 0);
 }
 
+// Makes timers due that have elapsed, and programs the driver. Loops that poll a driver call it many times in each
+// tick, without an effect. A driver with alarms may have called it before its alarm, and needs a new one.
+void serve(CO_TMR& t) {
+  if (USE_FAST_PATHS == 0) {
+    program(t, synchronise(t));
+    return;
+  }
+  const uint32_t now = port::now(*t.Node);
+  if (now != t.Clock || port::has_alarm(*t.Node)) {
+    advance(t, now);
+    program(t, now);
+  }
+}
+
 // Returns whether the armed timers are in the order of their expiry after a clock value, and End refers to the last
 // one. For assertions.
 [[maybe_unused]] bool is_sorted(const CO_TMR& t, uint32_t from) {
@@ -466,11 +480,10 @@ int16_t COTmrDelete(CO_TMR* tmr, int16_t actId) {
 int16_t COTmrService(CO_TMR* tmr) {
   ASSERT_PTR_ERR(tmr, -1);
   ASSERT_PTR_ERR(tmr->Node, -1);
-  CO_NODE& node = *tmr->Node;
-  if (port::has_elapsed(node)) {
-    tmr::program(*tmr, tmr::synchronise(*tmr));
+  if (port::has_elapsed(*tmr->Node)) {
+    tmr::serve(*tmr);
   }
-  return tmr::has_due(*tmr) || tmr::has_to_send(node) ? 1 : 0;
+  return tmr::has_due(*tmr) || tmr::has_to_send(*tmr->Node) ? 1 : 0;
 }
 
 }  // extern "C"

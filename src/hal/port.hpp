@@ -64,12 +64,12 @@ class NodeLock {
 #endif
 
 [[nodiscard]] inline uint32_t now(const CO_NODE& node) { return node.If.Timer->Now(node.If.TimerCtx); }
-// Requests a call of COTmrService() some ticks after now (0: no call). Without an Alarm function the driver is polled
-// by the loop.
+// Returns whether the timer driver calls COTmrService() at an alarm; otherwise the loop polls it.
+[[nodiscard]] inline bool has_alarm(const CO_NODE& node) { return node.If.Timer->Alarm != nullptr; }
+// Requests a call of COTmrService() some ticks after now (0: no call), if the driver has alarms.
 inline void set_alarm(const CO_NODE& node, uint32_t ticks) {
-  const CO_IF& cif = node.If;
-  if (cif.Timer->Alarm != nullptr) {
-    cif.Timer->Alarm(cif.TimerCtx, ticks);
+  if (has_alarm(node)) {
+    node.If.Timer->Alarm(node.If.TimerCtx, ticks);
   }
 }
 
