@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_recorder.h
-/// Recorder (USE_RECORDER): records a number of the dictionary with its time, like an oscilloscope, into memory of the
-/// application, and returns it as CSV, as numbers or as a picture. It is specific to this stack; its two records of
-/// objects follow the trace objects of CANopenNode. A node has any number of recorders.
+/// Recorder (USE_RECORDER): records the values of an object of the dictionary over time, like an oscilloscope, in
+/// memory of the application, and returns them as CSV, as numbers or as a picture. It is specific to this stack; its
+/// two records follow the trace objects of CANopenNode. A node can have any number of recorders.
 ///
 /// Configuration record, CO_TREC_CONFIG, usually 2301h…:
 /// | sub | type | content |
 /// |---|---|---|
-/// | 1 | UNSIGNED32 | points in use, up to CO_RECORDER.Num; 0: none are recorded |
+/// | 1 | UNSIGNED32 | points in use, up to CO_RECORDER.Num; 0: no points are recorded |
 /// | 2 | UNSIGNED8 | axis number, for the tool that draws; not used by the stack |
 /// | 3 | VISIBLE_STRING | name (CO_TVISIBLE_STRING, Data: &Recorder.Name) |
 /// | 4 | UNSIGNED32 | colour of the curve, RRGGBBh |
@@ -15,19 +15,19 @@
 /// | 6 | UNSIGNED8 | format of the plot: CO_RECORDER_CSV, _BINARY or _SVG, plus CO_RECORDER_UNSIGNED |
 /// | 7 | UNSIGNED8 | trigger: CO_RECORDER_FREE, _RISING, _FALLING or _BOTH |
 /// | 8 | INTEGER32 | threshold of the trigger |
-/// | 9 | UNSIGNED32 | points to be kept from before the trigger, less than those of sub-index 1 |
+/// | 9 | UNSIGNED32 | points to be kept from before the trigger: 0, or less than sub-index 1 |
 /// | 10 | UNSIGNED16 | time between two samples in ms; 0: CORecorderSample() only |
 ///
 /// Data record, usually 2401h…: CO_TREC_DATA, and CO_TREC_PLOT for sub-index 5.
 /// | sub | type | content |
 /// |---|---|---|
-/// | 1 | UNSIGNED32 | points held; writing 0 empties the recorder and starts it anew |
+/// | 1 | UNSIGNED32 | points held; writing 0 empties the recorder and starts it again |
 /// | 2 | INTEGER32 | last value |
 /// | 3, 4 | INTEGER32 | minimum, maximum since the recorder was started |
 /// | 5 | DOMAIN | the plot, generated while it is read |
 /// | 6 | UNSIGNED32 | time of the last trigger in ms; 0: none |
 ///
-/// CO_TREC_ENABLE, usually 2400h, BOOLEAN: 0 stops all recorders of the node, 1 continues them.
+/// CO_TREC_ENABLE, usually 2400h, BOOLEAN: while it is 0, no recorder of the node takes samples; 1 continues them.
 ///
 ///     static CO_RECORDER_POINT Points[256];
 ///     static uint8_t Name[] = "temperature";
@@ -45,29 +45,31 @@
 ///     {CO_KEY(0x2401, 5, CO_OBJ_____R_), CO_TREC_PLOT, (CO_DATA)(&Recorder)},
 ///
 /// **Recording.** The object is read at each sample, in every NMT state, and a point is added if its value has changed.
-/// Numbers of 8 to 32 bits are recorded, signed ones unless CO_RECORDER_UNSIGNED is set; of a REAL32 the bits. Without
-/// a trigger, a new point overwrites the oldest one. With a trigger, the last points (sub-index 9) are kept until the
-/// value crosses the threshold (at least the threshold: above, otherwise below); then points are added until the memory
-/// is full. The time of a point is in milliseconds since the first recorder of the node was started, modulo 2^32.
+/// Numbers of 8 to 32 bits are recorded: as signed numbers, unless CO_RECORDER_UNSIGNED is set. The bits of a REAL32
+/// are recorded as a number. Without a trigger, a new point overwrites the oldest one. With a trigger, only the most
+/// recent points (their number is sub-index 9) are kept until the value crosses the threshold (a value that equals the
+/// threshold is above it); then points are added until the memory is full. The time of a point is in milliseconds since
+/// the first recorder of the node was started, modulo 2^32.
 ///
 /// **Plot.** An upload, segmented or by block, returns the points that are held when it begins. Recording continues
-/// meanwhile: points that are overwritten before they were sent are left out. A complete upload removes the points that
-/// it has begun with; a recorder that has stopped because its memory is full then waits for its trigger again. An
-/// upload that is aborted removes none. A client that has lost frames of a block upload is aborted (0800 0022h) if the
-/// points to be repeated are overwritten. One client at a time can read the plot.
+/// meanwhile: points that are overwritten before they are sent are left out. A complete upload removes the points that
+/// it began with; a recorder that has stopped because its memory is full then waits for its trigger again. An aborted
+/// upload removes none. A block upload is aborted (0800 0022h) if it has to repeat points that are overwritten. One
+/// client at a time can read the plot.
 /// - CSV: a line `time;value` for each point, ended by a line feed.
-/// - Binary: for each point the time, UNSIGNED32, and the value, INTEGER32.
-/// - SVG: a picture of 800 by 400 with the value as steps, its name, and the limits of both axes. A gap in the curve
-///   shows points that were left out. The begin of the upload searches the points for their limits. Up to 80
-///   characters of the name are shown; it should not be changed during the upload.
+/// - Binary: for each point the time, UNSIGNED32, and the value, INTEGER32, both little-endian.
+/// - SVG: a picture of 800 by 400 with the value as steps, the name of the recorder, and the limits of both axes. A gap
+///   in the curve shows points that were left out. The limits are searched in all points when the upload begins. Up to
+///   80 characters of the name are shown; it should not be changed during the upload.
 ///
-/// **Configuration.** Each write is checked as a whole: an object that does not exist is refused with 0602 0000h, one
-/// that cannot be read or is no number of this length with 0604 0041h, any other wrong value with 0609 0030h. A change
-/// of sub-index 1, 5, 7, 8, 9 or of CO_RECORDER_UNSIGNED empties the recorder and starts it anew, and so do
-/// CONodeInit() and NMT resets. While the plot is being read, changes are refused (0800 0022h).
+/// **Configuration.** Each write is checked against the whole configuration: a recorded object that does not exist is
+/// refused with 0602 0000h, one that cannot be read or is not a number of this length with 0604 0041h, any other wrong
+/// value with 0609 0030h. A change of sub-index 1, 5, 7, 8, 9 or of CO_RECORDER_UNSIGNED empties the recorder and
+/// starts it again, and so do CONodeInit() and NMT resets. While the plot is being read, changes are refused (0800
+/// 0022h).
 ///
-/// CO_RECORDER.Config may be a parameter group (co_para.h). The access hook (CO_CALLBACKS) is asked for the objects of
-/// the recorder, not for the recorded object: refuse writes to sub-index 5 where clients may not read every object.
+/// CO_RECORDER.Config may be a parameter group (co_para.h). The access hook (CO_CALLBACKS) is called for the objects of
+/// the recorder, not for the recorded object: refuse writes to sub-index 5 if clients may not read every object.
 ///
 /// Context: the loop; with USE_REAL_TIME also other threads that hold the node lock.
 #ifndef CO_RECORDER_H_
@@ -125,32 +127,32 @@ typedef struct CO_RECORDER_CONFIG_T {
 /// \cond internal
 /// Position in a plot that is being generated.
 typedef struct CO_RECORDER_CURSOR_T {
-  uint32_t Position;  ///< bytes of the plot before this place
+  uint32_t Position;  ///< bytes of the plot before this position
   uint32_t Left;      ///< points of the plot that are not generated yet
   uint16_t Index;     ///< number of a character or point within a part
   uint8_t Part;       ///< part of the format
-  uint8_t Gap;        ///< points were left out before the next one
+  uint8_t Gap;        ///< 1: points were left out before the next one
 } CO_RECORDER_CURSOR;
 
 /// Plot that is being read.
 typedef struct CO_RECORDER_PLOT_T {
   CO_RECORDER_CURSOR Cursor;    ///< begin of the text that is generated next
-  CO_RECORDER_CURSOR Saved[2];  ///< earlier places, the older one first, for repeated segments
+  CO_RECORDER_CURSOR Saved[2];  ///< earlier positions, the older one first, for repeated segments
   CO_RECORDER_POINT Point;      ///< point at Cursor
   uint32_t At;                  ///< position of the next read
-  uint32_t Total;               ///< points at the begin
-  uint32_t Since;               ///< points recorded since the begin, at most the points in use
+  uint32_t Total;               ///< points when the upload began
+  uint32_t Since;               ///< points recorded since then, at most the points in use
   uint32_t Start;               ///< time of the first point
   uint32_t Duration;            ///< ms from the first point to the last one
   uint32_t Top;                 ///< greatest value, as an unsigned number of the same order
   uint32_t Range;               ///< difference of greatest and least value
   uint32_t Key;                 ///< entry that is being read
-  uint8_t Reading;              ///< an upload has begun
+  uint8_t Reading;              ///< 1: an upload is open
 } CO_RECORDER_PLOT;
 /// \endcond
 
-/// A recorder, in RAM. The application sets the members up to Config before CONodeInit(); the others are 0 at first and
-/// must not be accessed. It must live as long as the node and belongs to one node.
+/// A recorder, in RAM. The application sets the members up to Config before CONodeInit(); the others must be 0 at
+/// first and must not be accessed. Owner: the application; it must outlive the node, and only one node may use it.
 typedef struct CO_RECORDER_T {
   CO_RECORDER_POINT* Points;   ///< memory of the points; may be null if Num is 0
   uint32_t Num;                ///< points at Points
@@ -160,7 +162,7 @@ typedef struct CO_RECORDER_T {
   struct CO_RECORDER_T* Next;  ///< next recorder of the node
   CO_TMR_MEM Tmr;              ///< time until the next sample
   uint32_t Limit;              ///< points in use
-  uint32_t Write;              ///< place of the next point
+  uint32_t Write;              ///< index of the next point
   uint32_t Held;               ///< number of points
   uint32_t Missing;            ///< points until the recorder is full, after the trigger
   int32_t Value;               ///< last value
@@ -168,7 +170,7 @@ typedef struct CO_RECORDER_T {
   int32_t Max;                 ///< greatest value
   uint32_t TriggerTime;        ///< time of the last trigger
   uint8_t State;               ///< idle, waiting for the trigger, recording, or full
-  uint8_t HasValue;            ///< a sample was taken
+  uint8_t HasValue;            ///< 1: a sample was taken
   CO_RECORDER_PLOT Plot;       ///< plot that is being read
 } CO_RECORDER;
 
@@ -195,18 +197,18 @@ extern const CO_OBJ_TYPE COTRecEnable CO_NEEDS(USE_RECORDER);   ///< functions o
 /// Type of the object that enables all recorders, 2000h to 5FFFh; Data: a uint8_t.
 #define CO_TREC_ENABLE ((const CO_OBJ_TYPE*)&COTRecEnable)
 
-/// Starts a recorder: empties it and begins to sample. Not needed for a recorder with entries in the dictionary, which
-/// CONodeInit() and NMT resets start; one without entries has to be started after each CONodeInit().
+/// Starts a recorder: empties it and begins to sample. CONodeInit() and NMT resets start recorders with entries in the
+/// dictionary; the application has to start a recorder without entries after each CONodeInit().
 /// \retval CO_ERR_NONE           the recorder is started
 /// \retval CO_ERR_BAD_ARG        an argument is null, or the node was never initialised or is stopped
 /// \retval CO_ERR_OBJ_NOT_FOUND  the dictionary has no such object
-/// \retval CO_ERR_OBJ_MAP_TYPE   the object cannot be read, or is no number of that length
+/// \retval CO_ERR_OBJ_MAP_TYPE   the object cannot be read, or is not a number of that length
 /// \retval CO_ERR_OBJ_RANGE      another member of the configuration is wrong
 /// \retval CO_ERR_OBJ_STATE      the plot is being read
 CO_ERR CORecorderStart(struct CO_NODE_T* node, CO_RECORDER* recorder) CO_NEEDS(USE_RECORDER);
 
-/// Changes the configuration of a recorder that was started, as a whole; with an error it stays unchanged. Returns the
-/// errors of CORecorderStart(), or:
+/// Replaces the configuration of a recorder that was started. After an error the configuration is unchanged. Returns
+/// the errors of CORecorderStart(), or:
 /// \retval CO_ERR_BAD_ARG  an argument is null, the recorder was never started, or the node is stopped
 CO_ERR CORecorderConfigure(CO_RECORDER* recorder, const CO_RECORDER_CONFIG* config) CO_NEEDS(USE_RECORDER);
 
@@ -215,12 +217,12 @@ CO_ERR CORecorderConfigure(CO_RECORDER* recorder, const CO_RECORDER_CONFIG* conf
 /// \retval CO_ERR_NONE          the object was read
 /// \retval CO_ERR_BAD_ARG       \a recorder is null, or was never started
 /// \retval CO_ERR_OBJ_STATE     the recorders are disabled (CO_TREC_ENABLE), no object is configured, the
-///                              configuration in the table was wrong, or the node is stopped
+///                              configuration in the dictionary was wrong, or the node is stopped
 /// \retval CO_ERR_OBJ_NOT_FOUND the object is no longer in the dictionary
 /// \retval other                error of the type of the object
 CO_ERR CORecorderSample(CO_RECORDER* recorder) CO_NEEDS(USE_RECORDER);
 
-/// Empties a recorder and starts it anew.
+/// Empties a recorder and starts it again.
 /// \retval CO_ERR_NONE       the recorder is empty
 /// \retval CO_ERR_BAD_ARG    \a recorder is null, or was never started
 /// \retval CO_ERR_OBJ_STATE  the plot is being read
@@ -232,7 +234,7 @@ uint32_t CORecorderCount(const CO_RECORDER* recorder) CO_NEEDS(USE_RECORDER);
 /// Copies a point. \a number: 0 is the oldest one.
 /// \retval CO_ERR_NONE         \a point is set
 /// \retval CO_ERR_BAD_ARG      an argument is null
-/// \retval CO_ERR_OBJ_NO_DATA  the recorder holds less points
+/// \retval CO_ERR_OBJ_NO_DATA  the recorder does not hold so many points
 CO_ERR CORecorderGet(const CO_RECORDER* recorder, uint32_t number, CO_RECORDER_POINT* point) CO_NEEDS(USE_RECORDER);
 
 #ifdef __cplusplus

@@ -12,7 +12,7 @@ constexpr std::uint32_t wrong_state = 0x08000022;
 
 std::string text(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
-// Returns a line for each value, which is recorded at that millisecond.
+// Returns a CSV line for each value from one to another; the value is also its time in milliseconds.
 std::string lines(std::uint32_t first, std::uint32_t last) {
   std::string all;
   for (std::uint32_t value = first; value <= last; ++value) {
@@ -96,8 +96,7 @@ TEST_CASE("plot: a name without end does not make the picture endless [R4]") {
   CHECK(node.plot().find("<title></title>") != std::string::npos);
 }
 
-// Points of a read
-// ------------------------------------------------------------------------------------------------------
+// Points of an upload ------------------------------------------------------------------------------------------------
 
 TEST_CASE("plot: a read sees the points of its begin and removes them [R4]") {
   RecorderNode node;
@@ -116,9 +115,9 @@ TEST_CASE("plot: points that are overwritten before they are sent are left out [
   record(node, 1, 4);
   node.ask("601#4001240500000000", "581#4001240500000000");
   node.ask("601#6000000000000000", "581#00313B310A323B32");
-  record(node, 5, 6);  // over 1 and 2, of which 2 is half sent
+  record(node, 5, 6);  // overwrite 1 and 2; 2 is sent in part
   node.ask("601#7000000000000000", "581#100A333B330A343B");
-  record(node, 7, 8);  // over 4, which is half sent
+  record(node, 7, 8);  // overwrite 3 and 4; 4 is sent in part
   node.ask("601#6000000000000000", "581#0B340A0000000000");
   CHECK(node.plot() == lines(5, 8));
 }

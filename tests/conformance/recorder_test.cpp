@@ -287,7 +287,7 @@ TEST_CASE("recorder: values out of range are refused [R5]") {
   RecorderNode node(Recorded().size(8).trigger(CO_RECORDER_FREE, 0, 7));
   CHECK(node.configure(1, 17) == wrong_value);
   CHECK(node.configure(1, 0xFFFFFFFF) == wrong_value);
-  CHECK(node.configure(1, 7) == wrong_value);  // of which 7 before the trigger
+  CHECK(node.configure(1, 7) == wrong_value);  // with 7 points before the trigger
   CHECK(node.configure(4, 0x01000000) == wrong_value);
   CHECK(node.configure(9, 8) == wrong_value);
   CHECK(node.configure(9, 0xFFFFFFFF) == wrong_value);

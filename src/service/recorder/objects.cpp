@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects of a recorder, except its plot.
+// Object types of a recorder, except that of its plot.
 #include "dictionary/dict.hpp"
 #include "dictionary/types/place.hpp"
 #include "service/recorder/recorder.hpp"
@@ -15,7 +15,7 @@ using namespace co;
 // Member of CO_RECORDER_CONFIG, or of CO_RECORDER, that an entry contains.
 struct Member {
   uint8_t offset;
-  uint8_t bytes;  // 0: there is none
+  uint8_t bytes;  // 0: no member
 };
 
 constexpr Member no_member = {0, 0};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plot of a recorder: text, numbers or a picture that is generated while it is read.
 //
-// A plot is a sequence of tokens: a constant text, a number, a character, or a point. Only the place of the next token
-// is stored, so the plot needs no memory. Earlier places are saved for segments that have to be repeated.
+// A plot is a sequence of tokens: a constant text, a number, a character, or a point. Only the position of the next
+// token is stored, so the plot needs no memory. Earlier positions are saved for segments that have to be repeated.
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/place.hpp"
@@ -18,8 +18,8 @@ using namespace co;
 using Plot = CO_RECORDER_PLOT;
 using Cursor = CO_RECORDER_CURSOR;
 
-// Bytes by which a block upload goes back at most: a block that is not acknowledged yet begins within the last two
-// pieces that were read, and a token more.
+// Largest number of bytes by which a block upload goes back, plus a token: a block that is not acknowledged yet begins
+// within the last two pieces that were read.
 constexpr uint32_t block_bytes = 127 * wire::segment_bytes;
 constexpr uint32_t span = 2 * (CO_SDO_BUF_BYTE > block_bytes ? CO_SDO_BUF_BYTE : block_bytes) + 64;
 
@@ -136,7 +136,7 @@ class Writer {
   uint32_t length_ = 0;
 };
 
-// Returns the character of the name at a position; 0: the name has ended. The picture has no space for longer names.
+// Returns the character of the name at a position; 0: the name has ended. Longer names do not fit into the picture.
 uint8_t character_at(const CO_RECORDER& recorder, uint32_t position) {
   constexpr uint32_t longest_name = 80;
   const CO_OBJ_STR_RW& name = recorder.Name;
@@ -144,7 +144,7 @@ uint8_t character_at(const CO_RECORDER& recorder, uint32_t position) {
   return is_there ? name.Start[position] : uint8_t{0};
 }
 
-// Appends a character of the name. Characters that are not printable, or not of ASCII, are replaced.
+// Appends a character of the name. Characters other than printable ASCII are replaced by '_'.
 void put_character(Writer& writer, uint8_t character) {
   switch (character) {
     case '&': writer.put_text("&amp;"); break;
@@ -199,7 +199,7 @@ void put_content(Writer& writer, const CO_RECORDER& recorder, Content content) {
   }
 }
 
-// Places ------------------------------------------------------------------------------------------------------------
+// Cursor ------------------------------------------------------------------------------------------------------------
 
 struct Format {
   const Part* parts;
@@ -225,17 +225,17 @@ bool is_at_end(const CO_RECORDER& recorder) { return recorder.Plot.Cursor.Part /
 
 bool is_points(Content content) { return content >= Content::lines; }
 
-// Returns whether a point was already started to be generated: it is at the cursor, and copied.
+// Returns whether the point at the cursor has been read in part. It was copied to Plot.Point.
 bool is_within_point(const CO_RECORDER& recorder) {
   const Plot& plot = recorder.Plot;
   return plot.At != plot.Cursor.Position && !is_at_end(recorder) && !is_text(plot.Cursor) &&
          is_points(part_at(recorder).content);
 }
 
-// Returns whether a point of a plot is still in the memory. left: points from this one to the last one of the plot
+// Returns whether a point of a plot is not overwritten yet. left: points from this one to the last one of the plot
 bool is_held(const CO_RECORDER& recorder, uint32_t left) { return left <= recorder.Limit - recorder.Plot.Since; }
 
-// Copies the next point, which may be overwritten while its text is read. Skips those that are overwritten already.
+// Copies the next point, because it may be overwritten while its text is read. Skips points that are overwritten.
 void copy_point(CO_RECORDER& recorder) {
   Plot& plot = recorder.Plot;
   if (!is_held(recorder, plot.Cursor.Left)) {
@@ -277,7 +277,7 @@ bool is_part_over(const CO_RECORDER& recorder) {
   return is_text(recorder.Plot.Cursor) ? *part.text == '\0' : !has_token(recorder, part.content);
 }
 
-// Saves the place of the cursor if it is far enough from the last one that was saved.
+// Saves the cursor if it is at least span bytes after the cursor that was saved last.
 void save(Plot& plot) {
   if (plot.Cursor.Position - plot.Saved[1].Position >= span) {
     plot.Saved[0] = plot.Saved[1];
@@ -285,7 +285,7 @@ void save(Plot& plot) {
   }
 }
 
-// Moves the cursor behind a token that was read.
+// Moves the cursor behind a token that was read completely.
 void advance(CO_RECORDER& recorder, const Token& token) {
   Plot& plot = recorder.Plot;
   Cursor& cursor = plot.Cursor;
@@ -304,7 +304,7 @@ void advance(CO_RECORDER& recorder, const Token& token) {
   save(plot);
 }
 
-// Reads up to n bytes, and detects whether they are the last ones. buffer: null if they are skipped.
+// Reads up to n bytes. Afterwards is_at_end() returns whether they were the last ones. buffer: null to skip the bytes.
 void read_tokens(CO_RECORDER& recorder, uint8_t* buffer, uint32_t n) {
   Plot& plot = recorder.Plot;
   const uint32_t from = plot.At;
@@ -325,7 +325,7 @@ void read_tokens(CO_RECORDER& recorder, uint8_t* buffer, uint32_t n) {
   }
 }
 
-// Moves the cursor back to a place that was saved. Fails if a point that was generated since is overwritten.
+// Moves the cursor back to a saved one. Returns false if a point that was generated since then is overwritten.
 bool go_back(CO_RECORDER& recorder, const Cursor& to) {
   Plot& plot = recorder.Plot;
   const uint32_t generated = to.Left - plot.Cursor.Left + (is_within_point(recorder) ? 1U : 0U);
@@ -336,7 +336,7 @@ bool go_back(CO_RECORDER& recorder, const Cursor& to) {
   return true;
 }
 
-// Sets the position to a byte that was already read. Tokens from a saved place to there are generated again.
+// Sets the position to a byte that was already read. Generates the tokens from a saved cursor to this byte again.
 CO_ERR seek(CO_RECORDER& recorder, uint32_t position) {
   Plot& plot = recorder.Plot;
   if (position > plot.At || position < plot.Saved[0].Position) {

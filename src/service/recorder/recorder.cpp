@@ -15,12 +15,12 @@
 namespace co::recorder {
 namespace {
 
-// Longest cycle of the timer. Time is counted at each expiry, before the clock of the timers has wrapped.
+// Longest cycle of the timer, in ticks. The time is updated at each expiry, before the clock of the timers wraps.
 constexpr uint32_t longest_cycle = 1U << 30U;
 
 constexpr uint32_t smaller(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
-// Returns whether the recorder belongs to the node since its last initialisation.
+// Returns whether the recorder has been added to the node since the node was initialised.
 bool is_listed(const CO_NODE& node, const CO_RECORDER& recorder) {
   const CO_RECORDER* listed = node.Recorders.First;
   while (listed != nullptr && listed != &recorder) {
@@ -34,7 +34,7 @@ bool is_started(const CO_RECORDER* recorder) {
 
 // Time ----------------------------------------------------------------------------------------------------------------
 
-// Returns the time in milliseconds.
+// Updates the time of the recorders and returns it, in milliseconds.
 uint32_t count_time(CO_NODE& node) {
   CO_RECORDERS& all = node.Recorders;
   const uint32_t now = tmr::now(node.Tmr);
@@ -59,7 +59,7 @@ bool has_number(CO_NODE& node, CO_OBJ& obj, uint32_t bytes) {
   return is_readable && !obj::is_stream(obj) && obj::size(obj, node, bytes) == bytes;
 }
 
-// Finds the recorded object, which map defines as in a PDO mapping.
+// Finds the object that map contains, in the form of a PDO mapping entry, and checks that it can be recorded.
 CO_ERR find_number(CO_NODE& node, uint32_t map, CO_OBJ*& obj) {
   const uint32_t bits = map & 0xFFU;
   obj = dict::find(node.Dict, map);
@@ -87,7 +87,7 @@ CO_ERR check(CO_NODE& node, const CO_RECORDER& recorder, const CO_RECORDER_CONFI
   return config.Map == 0 ? CO_ERR_NONE : find_number(node, config.Map, obj);
 }
 
-// Returns whether the points of one configuration do not fit the other one.
+// Returns whether the recorder must be emptied when one configuration replaces the other.
 bool starts_anew(const CO_RECORDER_CONFIG& a, const CO_RECORDER_CONFIG& b) {
   return a.Size != b.Size || a.Map != b.Map || a.Threshold != b.Threshold || a.PreTrigger != b.PreTrigger ||
          a.Trigger != b.Trigger || ((a.Format ^ b.Format) & CO_RECORDER_UNSIGNED) != 0;
@@ -120,7 +120,7 @@ void add(CO_RECORDER& recorder, const CO_RECORDER_POINT& point) {
   recorder.Plot.Since = smaller(recorder.Plot.Since + 1, recorder.Limit);
 }
 
-// Returns whether a change of the value is the edge of the trigger.
+// Returns whether the change from the last value to this one is the edge of the trigger.
 bool is_edge(const CO_RECORDER& recorder, int32_t value) {
   const uint32_t threshold = ordered(recorder, static_cast<uint32_t>(recorder.Config.Threshold));
   const bool was_above = ordered(recorder, static_cast<uint32_t>(recorder.Value)) >= threshold;
@@ -129,8 +129,7 @@ bool is_edge(const CO_RECORDER& recorder, int32_t value) {
          (recorder.Config.Trigger & (is_above ? CO_RECORDER_RISING : CO_RECORDER_FALLING)) != 0;
 }
 
-// Adds a point of a recorder whose memory is not full. While the trigger is awaited, only the points before it are
-// held.
+// Adds a point to a recorder that is not full. Before the trigger, holds only the points to be kept from before it.
 void record(CO_RECORDER& recorder, const CO_RECORDER_POINT& point) {
   add(recorder, point);
   if (recorder.State == waiting) {
@@ -141,7 +140,7 @@ void record(CO_RECORDER& recorder, const CO_RECORDER_POINT& point) {
   }
 }
 
-// Processes a value that differs from the last one, or the first one.
+// Processes the first value, or a value that differs from the last one.
 void change(CO_RECORDER& recorder, int32_t value, uint32_t time) {
   if (recorder.State == waiting && recorder.HasValue != 0 && is_edge(recorder, value)) {
     recorder.State = triggered;
@@ -162,7 +161,7 @@ void change(CO_RECORDER& recorder, int32_t value, uint32_t time) {
   }
 }
 
-// Returns a number of the bus as a value of 32 bits: extends its sign unless it is unsigned.
+// Returns the value of a number of 8 to 32 bits: extends its sign unless it is unsigned.
 int32_t extend(const CO_RECORDER& recorder, uint32_t number, uint32_t bits) {
   const bool is_signed = (recorder.Config.Format & CO_RECORDER_UNSIGNED) == 0;
   const uint32_t sign = is_signed ? 1U << (bits - 1) : 0;
@@ -208,7 +207,7 @@ void start_timer(CO_RECORDER& recorder) {
   tmr::start(node.Tmr, recorder.Tmr, 0, cycle_of(node, recorder.Config), on_time, &recorder);
 }
 
-// Adds a recorder to the list of the node. The state of its timer is not valid before.
+// Adds a recorder to the list of the node, unless it is there. Before, the state of its timer is not valid.
 void list(CO_NODE& node, CO_RECORDER& recorder) {
   if (is_listed(node, recorder)) {
     return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recorder of numbers of the dictionary.
+// Recorder: records the values of objects of the dictionary.
 #pragma once
 
 #include "co_core.h"
@@ -11,19 +11,19 @@ namespace co::recorder {
 // Values of CO_RECORDER.State.
 enum State : uint8_t {
   idle,       // never started, or the configuration is wrong
-  waiting,    // for the trigger; the points before it are recorded
-  recording,  // without trigger: new points overwrite old ones
-  triggered,  // until the memory is full
-  full
+  waiting,    // waiting for the trigger; only the points to be kept from before it are held
+  recording,  // no trigger is configured: new points overwrite old ones
+  triggered,  // recording after the trigger, until the memory is full
+  full        // stopped, until a complete upload has removed the points
 };
 
-// Adds a recorder to those of the node, and starts it anew. The recorder is idle after an error.
+// Adds a recorder to the list of the node, empties it and starts it. The recorder is idle after an error.
 CO_ERR start(CO_NODE& node, CO_RECORDER& recorder);
 
 // Checks a configuration and replaces that of the recorder.
 [[nodiscard]] CO_ERR configure(CO_RECORDER& recorder, const CO_RECORDER_CONFIG& config);
 
-// Empties a recorder and starts it anew.
+// Empties a recorder and starts it again.
 [[nodiscard]] CO_ERR clear(CO_RECORDER& recorder);
 
 // Returns the point that was recorded last (age 1), or an earlier one: age is at most the points in use.
@@ -35,13 +35,13 @@ CO_ERR start(CO_NODE& node, CO_RECORDER& recorder);
   return (recorder.Config.Format & CO_RECORDER_UNSIGNED) != 0 ? value : value ^ sign;
 }
 
-// Removes the points of a plot that was read completely.
+// Removes the points with which an upload of the plot began, after it has been completed.
 void remove_read(CO_RECORDER& recorder);
 
 // Stops the timers when the node is stopped.
 void on_mode(CO_NODE& node);
 
-// Ends the plots whose entry CODictInit() has moved: the SDO server does not call their End function.
+// Ends uploads of plots whose entry CODictInit() has moved: the SDO server does not call the End function for them.
 void on_remap(CO_NODE& node);
 
 }  // namespace co::recorder
