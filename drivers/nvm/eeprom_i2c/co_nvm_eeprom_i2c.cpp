@@ -70,7 +70,7 @@ bool write_page(const CO_EEPROM_I2C& eeprom, uint32_t address, const uint8_t* fr
          await_ready(eeprom, to.device);
 }
 
-// Reads bytes of one block. A device that is lost meanwhile reads FFh, so it is addressed once more at the end.
+// Reads bytes of one block. A device that is lost meanwhile returns FFh, so it is addressed once more at the end.
 bool read_block(const CO_EEPROM_I2C& eeprom, uint32_t address, uint8_t* to, uint32_t num) {
   const Location from = locate(eeprom, address);
   return await_ready(eeprom, from.device) &&

@@ -15,8 +15,9 @@
 /// Geometry. A loss of power in a write cycle can damage the whole page, so the slots of a record do not share pages:
 /// use CO_EEPROM_SPACE() for the addresses of parameter groups.
 ///
-/// A device that does not acknowledge is an error: fewer bytes are read or written than requested. Nothing is repeated.
-/// A device that is lost while it is read returns FFh, so the driver addresses it once more after each read.
+/// If the device does not acknowledge, the driver reads or writes fewer bytes than requested, which is an error for the
+/// node. It does not repeat transfers. A device that is lost while it is read returns FFh, so the driver addresses it
+/// once more after each read.
 ///
 /// Context: the thread that stores and loads, with or without the node lock (docs/porting.md). If other devices on the
 /// bus are used in other threads, Write and Read must lock the bus. Owner: the caller; the context and what it refers
@@ -36,7 +37,7 @@ typedef struct CO_EEPROM_I2C_BUS_T {
   /// Transmits a start condition, \a device with R/W = 0, \a headNum bytes of \a head, \a num bytes of \a bytes, and a
   /// stop condition. Without bytes it only tests whether the device acknowledges. \a device: 7 bits.
   /// \retval true   the device has acknowledged its address and each byte
-  /// \retval false  it has not, or the bus has an error; the stop condition was transmitted all the same
+  /// \retval false  it has not, or the bus has an error; the stop condition was transmitted nevertheless
   bool (*Write)(void* ctx, uint8_t device, const uint8_t* head, uint8_t headNum, const uint8_t* bytes, uint32_t num);
   /// Transmits a start condition, \a device with R/W = 0 and \a headNum bytes of \a head; then a repeated start
   /// condition and \a device with R/W = 1; receives \a num bytes, the last one without acknowledge; and transmits a
@@ -56,7 +57,7 @@ typedef struct CO_EEPROM_I2C_T {
   uint32_t Capacity;             ///< bytes
   uint32_t PageSize;             ///< bytes of a page, as in the data sheet; 0: no pages (FRAM)
   uint8_t Device;                ///< device address, 7 bits (50h…57h), its block bits 0
-  uint8_t AddressBytes;          ///< bytes of an address, 1…3
+  uint8_t AddressBytes;          ///< bytes of an address in a transfer, 1…3
   uint8_t BlockShift;            ///< bit of Device that the first block bit is added to: 0; 24LC1025: 2
   uint8_t WriteTime;             ///< longest write cycle, milliseconds, as in the data sheet; 0: FRAM
 } CO_EEPROM_I2C;

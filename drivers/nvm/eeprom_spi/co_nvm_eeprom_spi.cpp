@@ -100,11 +100,10 @@ bool change_latch(const CO_EEPROM_SPI& eeprom, bool enable) {
   return (status(eeprom) & (is_writing | is_enabled)) == (enable ? is_enabled : 0);
 }
 
-// Returns whether the memory executes instructions. The latch is clear then.
+// Returns whether the memory executes instructions. If so, clears the write enable latch.
 bool is_present(const CO_EEPROM_SPI& eeprom) { return change_latch(eeprom, true) && change_latch(eeprom, false); }
 
-// Writes a part of one page and waits for the end of the write cycle. The bytes are those at from, repeated after
-// period bytes.
+// Writes num bytes of one page and waits for the end of the write cycle. The period bytes at from are repeated.
 bool write_page(const CO_EEPROM_SPI& eeprom, uint32_t address, const uint8_t* from, uint32_t num, uint32_t period) {
   if (!await_ready(eeprom) || !change_latch(eeprom, true)) {
     return false;

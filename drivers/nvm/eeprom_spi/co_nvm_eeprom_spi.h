@@ -12,9 +12,9 @@
 /// each, it reads the status until the write cycle has ended, for at most WriteTime and the duration of the transfers.
 /// It also waits before each access, because the CPU may have been reset during a write cycle.
 ///
-/// Device loss. SPI has no acknowledgement: a device that is missing reads FFh or 00h throughout. Each call of Read and
-/// Write therefore ends with a test: the write enable latch has to follow the instructions that set and clear it.
-/// Otherwise no byte was read or written.
+/// Device loss. SPI has no acknowledgement: all bytes of a missing device read FFh or 00h. Each access therefore ends
+/// with a test: the status must show that the write enable latch follows the instructions that set and clear it.
+/// Otherwise the access fails: Read and Write return 0.
 ///
 /// Geometry. A loss of power in a write cycle can damage the whole page, so the slots of a record do not share pages:
 /// use CO_EEPROM_SPACE() for the addresses of parameter groups.
@@ -32,10 +32,10 @@
 extern "C" {
 #endif
 
-/// Functions of the SPI bus: mode 0,0 or 1,1, the highest bit first.
+/// Functions of the SPI bus: mode 0,0 or 1,1, most significant bit first.
 typedef struct CO_EEPROM_SPI_BUS_T {
-  /// Sets chip select low (\a selected true) or high. Before it becomes high, the last bit has been transferred; it
-  /// stays high for the time that the data sheet requires (250 ns at most).
+  /// Sets chip select low (\a selected true) or high. Waits until the last bit has been transferred before it sets
+  /// chip select high, then keeps it high for the time that the data sheet requires (250 ns at most).
   void (*Select)(void* ctx, bool selected);
   /// Transfers \a num bytes in both directions and returns when they have been transferred. \a out: null to transmit
   /// any bytes; \a in: null to discard the received bytes.

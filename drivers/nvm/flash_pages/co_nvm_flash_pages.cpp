@@ -72,7 +72,7 @@ bool is_erased(const uint8_t* bytes, uint32_t num) {
   return n == num;
 }
 
-// Programs a unit that is erased. The copy is aligned, and the caller's bytes may change meanwhile.
+// Programs a unit, which must be erased, from an aligned copy of the caller's bytes.
 bool program(const CO_FLASH_PAGES& flash, uint32_t address, const uint8_t* from) {
   alignas(8) uint8_t unit[CO_FLASH_UNIT_MAX];
   if (!read_page(flash, address, unit, flash.ProgramSize) || !is_erased(unit, flash.ProgramSize)) {

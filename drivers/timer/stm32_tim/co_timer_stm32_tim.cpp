@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The counter runs from 0 to its last value and sets UIF when it wraps. CC1IF is set when it reaches Ccr1. Flags are
-// cleared by writing 0 and not changed by writing 1, so that no flag is lost that is set meanwhile.
+// cleared by writing 0 and not changed by writing 1, so that a flag that is set meanwhile is not lost.
 #include "co_timer_stm32_tim.h"
 
 #include "../tickless/cycle_clock.hpp"
@@ -36,12 +36,12 @@ CO_STM32_TIM& timer_of(void* ctx) { return *static_cast<CO_STM32_TIM*>(ctx); }
 bool is_narrow(const CO_STM32_TIM& t) { return t.Bits == narrow; }
 uint32_t last_count(const CO_STM32_TIM& t) { return is_narrow(t) ? UINT16_MAX : UINT32_MAX; }
 
-// Counts of half of the range: the longest step to an alarm.
+// Returns half of the range, in counts: the longest time for which the compare value is set.
 uint32_t half_range(const CO_STM32_TIM& t) { return last_count(t) / 2 + 1; }
 
 void clear(const CO_STM32_TIM& t, uint32_t flag) { store(t.Regs->Sr, ~flag); }
 
-// Counts a change of the clock. now() repeats its reading if the number has changed meanwhile.
+// Increments the number of changes. now() reads the clock again if the number has changed meanwhile.
 void count_change(CO_STM32_TIM& t) { __atomic_store_n(&t.Changes, t.Changes + 1, __ATOMIC_RELEASE); }
 
 // Returns the present count, across the wraps of the counter. A wrap whose interrupt has not run yet is added.
@@ -53,7 +53,7 @@ uint32_t count(const CO_STM32_TIM& t) {
   return t.Begin + (has_wrapped ? last_count(t) + 1 : 0) + value;
 }
 
-// Sets the compare value to wait counts after begin. A value that the counter has passed meanwhile is an alarm at once.
+// Sets the compare value to wait counts after begin. Requests the interrupt if the counter has passed it meanwhile.
 void match(const CO_STM32_TIM& t, uint32_t begin, uint32_t wait) {
   store(t.Regs->Ccr1, (begin + wait) & last_count(t));
   clear(t, matched);
@@ -62,7 +62,7 @@ void match(const CO_STM32_TIM& t, uint32_t begin, uint32_t wait) {
   }
 }
 
-// Returns the divisor of the prescaler: the largest one that divides the counts of a tick.
+// Returns the divisor of the prescaler: the largest one that divides the input cycles of a tick.
 uint32_t prescaler(uint32_t hz, uint32_t freq) {
   const uint32_t ratio = freq == 0 || hz < freq ? 1 : hz / freq;
   uint32_t counts = (ratio + highest_prescaler - 1) / highest_prescaler;  // counts of a tick
@@ -97,7 +97,7 @@ void init(void* ctx, uint32_t freq) {
   store(regs.Dier, is_narrow(t) ? matched | wrapped : matched);
 }
 
-// Repeats the reading if the interrupt has changed the clock meanwhile.
+// Reads the clock, again if the interrupt has changed it meanwhile.
 uint32_t now(void* ctx) {
   const CO_STM32_TIM& t = timer_of(ctx);
   for (;;) {

@@ -9,16 +9,17 @@
 ///     ext.Timer = &Stm32TimDriver;  ext.TimerCtx = &timer;                              // CO_NODE_EXT
 ///     void TIM2_IRQHandler(void) { COStm32TimInterrupt(&timer); COTmrService(&node.Tmr); }
 ///
-/// The application enables the clock of the timer (RCC) before CONodeInit() and its interrupt (NVIC) after it. The
-/// driver uses the counter and compare channel 1, and no pin; the other channels are free, except that the prescaler
-/// and the range of the counter are those of the driver.
+/// The application enables the clock of the timer (RCC) before CONodeInitEx() and its interrupt (NVIC) after it. The
+/// driver uses the counter and compare channel 1, and no pin. The application may use the other channels, with the
+/// prescaler and the range of the counter that the driver has set.
 ///
-/// An alarm is never early, and late by the time of the interrupt only: the counter runs freely, and no time is lost. A
-/// counter of 16 bits also interrupts each time it wraps. Alarms beyond half of the range are reached in steps of half
-/// of the range, each an interrupt. Interrupts may be disabled for less than the range: 65 ms for 16 bits at 1 MHz.
+/// An alarm is never early, and late only by the latency of the interrupt: the counter runs freely, and no time is
+/// lost. A counter of 16 bits also interrupts each time it wraps. If an alarm is farther away than half of the range,
+/// the timer interrupts after each half of the range. Interrupts must not be disabled for as long as the range: 65 ms
+/// for 16 bits at 1 MHz.
 ///
 /// Contexts: COStm32TimInterrupt() in the interrupt of the timer, which no other interrupt that uses the node may
-/// interrupt; the other functions in the loop and in COTmrService(). Owner: the caller; must outlive the node.
+/// preempt; the other functions in the loop and in COTmrService(). Owner: the caller; must outlive the node.
 #ifndef CO_TIMER_STM32_TIM_H_
 #define CO_TIMER_STM32_TIM_H_
 
@@ -56,12 +57,12 @@ typedef struct CO_STM32_TIM_T {
   CO_STM32_TIM_REGS* Regs;  ///< CO_STM32_TIM2, or the address of another timer
   uint32_t Hz;              ///< frequency of the timer's input clock, a multiple of CO_NODE_SPEC.TmrFreq
   uint32_t Bits;            ///< 16 or 32
-  CO_CYCLE_CLOCK Clock;     ///< ticks, updated whenever an alarm is set
-  uint32_t Begin;           ///< count at which the counter was 0 the last time
-  uint32_t Changes;         ///< number of changes of the members above, by which a reader detects one
+  CO_CYCLE_CLOCK Clock;     ///< clock in ticks, updated whenever an alarm is set
+  uint32_t Begin;           ///< count at the last wrap of the counter, modulo 2^32
+  uint32_t Changes;         ///< number of changes of Clock and Begin, by which a reader detects a change
 } CO_STM32_TIM;
 
-/// Continues the clock. Call it in the interrupt of the timer, before COTmrService().
+/// Updates the clock and clears the flags of the timer. Call it in the interrupt of the timer, before COTmrService().
 void COStm32TimInterrupt(CO_STM32_TIM* timer);
 
 /// The driver; its context is a CO_STM32_TIM.
