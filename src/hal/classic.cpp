@@ -6,8 +6,8 @@
 namespace co::classic {
 namespace {
 
-// CAN driver. Context argument of CAN and memory driver: the table of classic drivers, which the application may
-// change.
+// CAN driver. The context argument of the adapters for CAN and memory is the table of classic drivers. The application
+// may replace drivers in the table.
 const CO_IF_DRV& drivers_of(const void* ctx) { return *static_cast<const CO_IF_DRV*>(ctx); }
 const CO_IF_CAN_DRV& can_of(const void* ctx) { return *drivers_of(ctx).Can; }
 void can_init(void* ctx) { can_of(ctx).Init(); }
@@ -35,8 +35,8 @@ uint32_t nvm_write(void* ctx, uint32_t start, const uint8_t* buffer, uint32_t si
 
 constexpr CO_IF_NVM_DRV_EX nvm_adapter = {nvm_init, nvm_read, nvm_write, nullptr, nullptr};
 
-// Timer driver. Context argument: the node's CO_IF. A classic driver counts down and has no clock; the clock is the
-// time of the expiry for which it counts, less the ticks that are left. It stops with the driver.
+// Timer driver. The context argument of the adapter is the node's CO_IF. A classic driver counts down and has no clock:
+// the adapter subtracts the ticks that are left from the time of the expiry. The clock stops when the driver stops.
 CO_IF& interface_of(void* ctx) { return *static_cast<CO_IF*>(ctx); }
 const CO_IF_TIMER_DRV& timer_of(const CO_IF& cif) { return *cif.Drv->Timer; }
 
@@ -51,9 +51,9 @@ uint32_t timer_now(void* ctx) {
   return cif.Expiry - (left < cif.Programmed ? left : cif.Programmed);
 }
 
-// Returns the ticks for which the driver counts while no timer is armed; 0 stops it. While an elapsed cyclic timer has
-// not been processed by the loop, the driver must count, so that the timer keeps its phase: until its next expiry or,
-// if that is missed, as long as possible, so that a blocked loop causes only one more interrupt.
+// Returns the ticks for which the driver counts while no timer is armed; 0: the driver stops. The driver must count
+// while the loop has not processed an elapsed cyclic timer yet, so that this timer keeps its phase: until its next
+// expiry or, if that is missed, as long as possible, so that a blocked loop causes only one more interrupt.
 uint32_t wait_for_loop(const CO_TMR& timers, uint32_t now) {
   const CO_TMR_MEM* timer = timers.First;
   while (timer != nullptr && timer->Cycle == 0) {
@@ -66,7 +66,7 @@ uint32_t wait_for_loop(const CO_TMR& timers, uint32_t now) {
   return late < timer->Cycle ? timer->Cycle - late : UINT32_MAX;
 }
 
-// Counts for some ticks after now; 0: stops.
+// Lets the driver count until some ticks after now. 0 ticks: stops the driver.
 void count_down(CO_IF& cif, uint32_t now, uint32_t ticks) {
   const bool is_stopped = cif.Programmed == 0;
   cif.IsElapsed = false;
@@ -82,8 +82,8 @@ void count_down(CO_IF& cif, uint32_t now, uint32_t ticks) {
   }
 }
 
-// Has no effect if the driver counts for that moment already, or has elapsed and COTmrService(), which programs it
-// again, has not been called yet.
+// Sets the alarm. Has no effect if the driver already counts until that moment, or if it has elapsed and
+// COTmrService(), which programs it again, has not been called yet.
 void timer_alarm(void* ctx, uint32_t ticks) {
   CO_IF& cif = interface_of(ctx);
   const uint32_t now = timer_now(ctx);

@@ -7,7 +7,7 @@
 
 namespace co::classic {
 
-// Sets the adapters of the classic drivers for those drivers that the node lacks.
+// Sets adapters to the classic drivers, except for those kinds of drivers that the node already has.
 void add_drivers(CO_IF& cif, CO_IF_DRV& drivers);
 
 }  // namespace co::classic

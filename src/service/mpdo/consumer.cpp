@@ -32,7 +32,7 @@ bool is_addressed(const CO_NODE& node, const CO_PDO_MAP& map, uint32_t low) {
   return !is_dam(map) || node_id == 0 || node_id == node.NodeId;
 }
 
-// Returns the object that an entry of the dispatching list, or a block of it, assigns to an object of the producer.
+// Returns the object that the dispatching list assigns to an object of the producer; null: none.
 CO_OBJ* dispatch(CO_NODE& node, uint32_t producer) {
   CO_ASSERT(node.Mpdo.BlockNum <= CO_MPDO_DISPATCH_N);
   for (uint16_t n = 0; n < node.Mpdo.BlockNum; ++n) {
@@ -46,7 +46,7 @@ CO_OBJ* dispatch(CO_NODE& node, uint32_t producer) {
   return nullptr;
 }
 
-// Returns the object that the frame writes; null: there is none.
+// Returns the object to which the frame is written; null: none.
 CO_OBJ* find(CO_NODE& node, const CO_PDO_MAP& map, uint32_t low) {
   const uint32_t key = wire::mpdo_key(low);
   if (is_sam(map)) {

@@ -14,7 +14,7 @@ namespace {
 // Returns the first error, but a lack of space (CO_ERR_OBJ_MAP_LEN) has priority.
 CO_ERR worse_of(CO_ERR err, CO_ERR next) { return err == CO_ERR_NONE || next == CO_ERR_OBJ_MAP_LEN ? next : err; }
 
-// Adds the used entries of a list with indices first…last, in the order of the dictionary.
+// Adds the entries of a list that are not 0, with indices first…last, in the order of the dictionary.
 template <class T>
 CO_ERR resolve_entries(CO_NODE& node, uint16_t first, uint16_t last, CO_ERR (*add)(CO_NODE&, T)) {
   const CO_OBJ* const begin = dict::find(node.Dict, CO_DEV(first, 1));
@@ -49,7 +49,7 @@ CO_ERR check_block(CO_NODE& node, Direction direction, uint32_t key, uint8_t num
   return err;
 }
 
-// Returns the number of an entry that is in the dictionary, as check_block() has found.
+// Returns the number of the entry with the key. It exists: check_block() has found it.
 uint16_t entry_of(CO_NODE& node, uint32_t key) {
   const CO_OBJ* const obj = dict::find(node.Dict, key);
   CO_ASSERT(obj != nullptr);

@@ -10,17 +10,16 @@ using pdo::Direction;
 
 inline constexpr uint16_t no_producer = 0;  // CO_MPDO.Producer holds numbers of TPDOs from 1
 
-// Resolve the scanner and the dispatching list. Entries with an invalid object are omitted; the first error is
-// returned.
+// Resolve the scanner and the dispatching list. Omit entries with an invalid object, and return the first error.
 [[nodiscard]] CO_ERR resolve_scan(CO_NODE& node);
 [[nodiscard]] CO_ERR resolve_dispatch(CO_NODE& node);
 
-// Returns why an object cannot be sent or received in a multiplex PDO. obj: null if the dictionary has none with the
-// key
+// Returns the reason why an object cannot be sent or received in a multiplex PDO; CO_ERR_NONE: it can. It must have up
+// to 4 bytes; static data types have no data. obj: null if the dictionary has no object with the key
 [[nodiscard]] CO_ERR check_object(CO_NODE& node, Direction direction, CO_OBJ* obj, uint32_t key);
 
-// Maps an object behind the multiplexer of the frame, for pdo::copy_objects(). Returns CO_ERR_OBJ_SIZE if it has more
-// than 4 bytes. CORPdoObjWasReceived() finds the object in the mapping until the next one is mapped.
+// Maps an object to the bytes after the multiplexer of the frame, for pdo::copy_objects(). Returns CO_ERR_OBJ_SIZE if
+// the object has more than 4 bytes. CORPdoObjWasReceived() finds it in the mapping until another object is mapped.
 [[nodiscard]] CO_ERR map_object(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj);
 
 // Returns the object of an entry number; null if CODictInit() has renumbered the entries, until remap() has run.
@@ -33,10 +32,10 @@ inline constexpr uint16_t no_producer = 0;  // CO_MPDO.Producer holds numbers of
 [[nodiscard]] bool is_waiting(const CO_NODE& node);
 void clear_marks(CO_NODE& node);
 
-// Finds the next pending object in the order of the list, beginning behind the one sent last.
+// Finds the next pending object in the order of the list, beginning after the object that was sent last.
 [[nodiscard]] bool next(CO_NODE& node, uint16_t& place);
 
-// Clears the mark of an object that was sent, or could not be read, and advances the round-robin index behind it.
+// Clears the mark of an object that was sent or could not be read, and sets the round-robin index to the next object.
 // entry: the object at place before callbacks were called
 void finish_object(CO_NODE& node, uint16_t place, uint16_t entry, bool sent);
 

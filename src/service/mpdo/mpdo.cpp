@@ -15,7 +15,7 @@
 namespace co::mpdo {
 namespace {
 
-// Resolves the list that the PDO uses. Only one TPDO can use the scanner list. [301:7.2.3.2.2]
+// Resolves the list that the PDO uses. Returns an error if another TPDO uses the scanner list. [301:7.2.3.2.2]
 CO_ERR resolve_list(CO_NODE& node, unsigned index) {
   if (pdo::direction_of(index) == Direction::receive) {
     return resolve_dispatch(node);
@@ -25,7 +25,7 @@ CO_ERR resolve_list(CO_NODE& node, unsigned index) {
   return taken ? CO_ERR_OBJ_INCOMPATIBLE : resolve_scan(node);
 }
 
-// Length of the multiplexer in a frame, in the unit of CO_PDO_MAP.Length.
+// Length of the address byte and the multiplexer in a frame, in the unit of CO_PDO_MAP.Length.
 constexpr uint8_t multiplexer = wire::mpdo_data * pdo::one_byte;
 
 }  // namespace
@@ -57,7 +57,6 @@ CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
   return CO_ERR_NONE;
 }
 
-// Returns whether an object can be sent in a multiplex PDO: up to 4 bytes; static data types have no data.
 CO_ERR check_object(CO_NODE& node, Direction direction, CO_OBJ* obj, uint32_t key) {
   if (obj == nullptr || rules::is_static_type(key)) {
     return dict::has_index(node.Dict, key) ? CO_ERR_OBJ_MAP_TYPE : CO_ERR_OBJ_NOT_FOUND;

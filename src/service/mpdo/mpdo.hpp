@@ -6,14 +6,14 @@
 
 namespace co::mpdo {
 
-// Forgets the producer, before the PDOs are configured from the dictionary.
+// Clears CO_MPDO.Producer. To be called before the PDOs are configured from the dictionary.
 void init(CO_NODE& node);
 
-// Processes a frame for RPDO number, which is a multiplex PDO. Returns false if it is malformed.
+// Processes a frame for the RPDO with this number, a multiplex PDO. Returns false if the frame is malformed.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
-// Continues with the pending objects of the scanner list when the controller can accept frames. Always returns false:
-// it sends as many as possible, so that another call would send nothing.
+// Sends pending objects of the scanner list when the controller can accept frames. Always returns false: one call sends
+// as many as possible, so that another call would send nothing.
 [[nodiscard]] bool on_free(CO_NODE& node, uint16_t number);
 
 // Implements COTPdoSendTo() (co_pdo.h).

@@ -62,7 +62,7 @@ bool next(CO_NODE& node, uint16_t& place) {
   return false;
 }
 
-// The list is checked again, because a callback may have changed it.
+// Checks the list again, because a callback may have changed it.
 void finish_object(CO_NODE& node, uint16_t place, uint16_t entry, bool sent) {
   CO_MPDO& mpdo = node.Mpdo;
   if (place >= mpdo.ScanNum || mpdo.Scan[place] != entry) {
