@@ -226,7 +226,7 @@ TEST_CASE("MPDO configuration: CODictInit() with another table adds or removes t
   }
 }
 
-TEST_CASE("MPDO configuration: wrong ones in the table do not exist [M9]") {
+TEST_CASE("MPDO configuration: PDOs with a wrong configuration in the table do not exist [M9]") {
   struct Wrong {
     std::uint8_t number;
     std::uint8_t type;

@@ -452,7 +452,7 @@ TEST_CASE("MPDO source: a change of the list applies from the next frame [301:7.
   CHECK(node.u8[1] == 0xA1);
 }
 
-TEST_CASE("MPDO source: several RPDOs use the scanner list and may share a CAN-ID with other RPDOs") {
+TEST_CASE("MPDO source: several RPDOs use the dispatching list and may share a CAN-ID with other RPDOs") {
   if (fixture_rpdos < 3) {
     return;
   }

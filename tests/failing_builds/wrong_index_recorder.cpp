@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'6', '0', '0', '0'>, co::Sub<'0', '5'>
-// The indices are those of manufacturers.
+// Recorders are only permitted in the manufacturer-specific area, 2000h to 5FFFh.
 #define USE_RECORDER 1
 #include "lexican/dictionary.hpp"
 

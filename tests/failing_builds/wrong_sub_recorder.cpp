@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'2', '3', '0', '1'>, co::Sub<'0', '3'>
-// Sub-index 3 is the name, a string.
+// Sub-index 3 is the name, a string: CO_TREC_CONFIG is not permitted.
 #define USE_RECORDER 1
 #include "lexican/dictionary.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'2', '4', '0', '1'>, co::Sub<'0', '5'>
-// Sub-index 5 is the plot, CO_TREC_PLOT.
+// Sub-index 5 is the plot, which requires CO_TREC_PLOT: CO_TREC_DATA is not permitted.
 #define USE_RECORDER 1
 #include "lexican/dictionary.hpp"
 

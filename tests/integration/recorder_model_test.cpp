@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// A client that reads the plot in segments, some of them between other events. The value of each millisecond is stored.
+// A client that reads the plot in segments, with other events between them. Stores the value of each millisecond.
 class Client {
  public:
   explicit Client(unsigned seed) : random_(seed), node_(Recorded().memory(20).size(20)) {}
@@ -74,7 +74,7 @@ class Client {
       check();
     }
   }
-  // Each line has the value of its time, and the times ascend.
+  // Checks that each line has the value of its time, and that the times ascend.
   void check() {
     ++complete_;
     std::istringstream lines(text_);

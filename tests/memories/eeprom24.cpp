@@ -52,7 +52,7 @@ void* Eeprom24::context() {
   return &context_;
 }
 
-// Counts a byte on the bus. Returns whether the device takes part.
+// Counts a byte on the bus. Returns whether the device receives or transmits it.
 bool Eeprom24::answers() {
   now += byte_time;
   ++bus_bytes;

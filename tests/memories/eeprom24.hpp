@@ -38,8 +38,8 @@ class Eeprom24 {
   std::uint64_t bus_bytes = 0;      ///< bytes on the bus, device addresses included
   std::uint64_t lost_after = 0;     ///< number of bytes on the bus after which the device does not answer; 0: never
   std::uint64_t waits = 0;          ///< calls of Wait
-  bool is_protected = false;        ///< write protection by a pin, as of Microchip: acknowledged, no write cycle
-  bool refuses_data = false;        ///< write protection by a pin, as of ST: data are not acknowledged
+  bool is_protected = false;        ///< protected by a pin as in memories of Microchip: acknowledged, no write cycle
+  bool refuses_data = false;        ///< protected by a pin as in memories of ST: data are not acknowledged
 
   // The bus
   bool start(std::uint8_t control);

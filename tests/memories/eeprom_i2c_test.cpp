@@ -232,7 +232,7 @@ TEST_CASE("eeprom_i2c: impossible settings have no capacity") {
 
 TEST_CASE("eeprom_i2c: the driver check passes") {
   for (const Chip24& chip : chips) {
-    if (chip.capacity <= 8192) {  // larger ones take long
+    if (chip.capacity <= 8192) {  // limits the duration
       CAPTURE(chip.name);
       Eeprom24 memory(chip);
       CHECK(failed_checks(memory) == std::vector<std::string>{});

@@ -228,7 +228,7 @@ TEST_CASE("eeprom_spi: the driver check passes") {
   for (const Chip25& chip : chips) {
     CAPTURE(chip.name);
     Chip25 part = chip;
-    part.capacity = chip.capacity < 2048 ? chip.capacity : 2048;  // more takes long
+    part.capacity = chip.capacity < 2048 ? chip.capacity : 2048;  // limits the duration
     Eeprom25 memory(part);
     CHECK(failed_checks(memory) == std::vector<std::string>{});
     CHECK(memory.is_used_well());

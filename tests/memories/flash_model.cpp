@@ -47,7 +47,7 @@ FlashModel::Place FlashModel::find(std::uint32_t address) {
 
 void FlashModel::erase_unit(Unit& unit) const { unit = {std::vector<std::uint8_t>(program_size_, blank), true, false}; }
 
-// Leaves a unit in the state of an interrupted operation.
+// Sets a unit to the state after an interrupted operation.
 void FlashModel::leave(Unit& unit, const std::vector<std::uint8_t>& to, bool is_first_half, bool is_erase) {
   const bool is_half_erased = is_erase && power.partial == Partial::half;
   if (power.partial == Partial::untouched || (is_half_erased && !is_first_half)) {
@@ -120,7 +120,7 @@ bool FlashModel::read(std::uint32_t address, void* to, std::uint32_t size) const
   for (std::uint32_t n = 0; n < size; ++n) {
     const Place place = const_cast<FlashModel*>(this)->find(address + n);
     if (place.unit == nullptr || place.unit->is_damaged) {
-      std::fill_n(bytes, size, blank);  // must not be taken for the contents
+      std::fill_n(bytes, size, blank);  // differs from the contents: the driver must not return it
       return false;
     }
     bytes[n] = place.unit->bytes[place.offset];

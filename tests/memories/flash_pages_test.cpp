@@ -200,7 +200,7 @@ TEST_CASE("flash_pages: without a Read function the memory is read like RAM") {
 
 TEST_CASE("flash_pages: the driver check passes") {
   for (const Memory& memory : memories) {
-    if (memory.shape.EraseSize <= 2048) {  // larger ones take long
+    if (memory.shape.EraseSize <= 2048) {  // limits the duration
       CAPTURE(memory.name);
       FlashModel model = model_of(memory);
       CHECK(failed_checks(model) == std::vector<std::string>{});

@@ -40,7 +40,7 @@ void check_accesses(Lines& lines, const CO_IF_NVM_DRV_EX& driver, const void* co
 TEST_CASE("example for I2C on two pins: bytes are written and read") {
   I2cLines lines;
   i2c = &lines;
-  lines.memory.byte_time = 0;  // the pins have their own
+  lines.memory.byte_time = 0;  // the waits of the example advance the time
   EepromI2cFree();
   check_accesses(lines, EepromI2cNvmDriver, &EepromI2c);
   i2c = nullptr;

@@ -31,7 +31,7 @@ void Stm32Tim::run(std::uint64_t cycles) {
     return;
   }
   while (cycles != 0) {
-    // Counts at once up to the next event, which is a wrap or a match.
+    // Advances in one step to the next event: a wrap or a match.
     const std::uint64_t per_count = std::uint64_t{prescaler_} + 1;
     const std::uint64_t counts = (cycles_ + cycles) / per_count;
     const std::uint64_t to_wrap = std::uint64_t{last_} - counter_ + 1;

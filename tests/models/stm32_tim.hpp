@@ -12,13 +12,13 @@ class Stm32Tim : public RegisterModel {
  public:
   Stm32Tim(std::uintptr_t address, unsigned bits);
 
-  /// Lets the input clock run for some cycles.
+  /// Advances the input clock by some cycles.
   void run(std::uint64_t cycles);
   /// Returns the level of the interrupt line.
   bool interrupt() const { return (status_ & enabled_ & 3U) != 0; }
-  /// Returns the values that the counter has counted since it was started.
+  /// Returns the number of counts since the counter was started.
   std::uint64_t counted() const { return counted_; }
-  /// Sets the counter, as if it had counted for long.
+  /// Sets the counter, as if it had counted for a long time.
   void set_counter(std::uint32_t value) { counter_ = value; }
   std::uint32_t prescaler() const { return prescaler_; }
 

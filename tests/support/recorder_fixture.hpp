@@ -69,7 +69,7 @@ class RecorderNode : public RecorderObjects, public Fixture {
   RecorderNode(const RecorderNode&) = delete;
   RecorderNode& operator=(const RecorderNode&) = delete;
 
-  /// Sets all variables, and lets a millisecond pass, for each value.
+  /// For each value, sets all variables and advances the time by one millisecond.
   void record(std::initializer_list<std::int64_t> values, Where at = {__builtin_FILE(), __builtin_LINE()}) {
     for (const std::int64_t value : values) {
       set(value);
@@ -97,7 +97,7 @@ class RecorderNode : public RecorderObjects, public Fixture {
     return value;
   }
   std::uint32_t held() { return number(0x2401, 1); }
-  /// Writes a number of the configuration. Returns the abort code, 0: success.
+  /// Writes a sub-index of the configuration. Returns the abort code; 0: success.
   std::uint32_t configure(std::uint8_t sub, std::uint32_t value, std::size_t bytes = 4,
                           Where at = {__builtin_FILE(), __builtin_LINE()}) {
     Bytes data;
