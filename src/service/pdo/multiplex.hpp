@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Differences between PDOs and multiplex PDOs: the functions that the service mpdo defines for this one. Without it no
-// PDO is a multiplex PDO.
+// Functions of the service mpdo that the service pdo calls where multiplex PDOs differ from other PDOs. With USE_MPDO 0
+// no PDO is a multiplex PDO.
 #pragma once
 
 #include "co_core.h"
@@ -11,7 +11,7 @@ namespace co::mpdo {
 inline constexpr uint8_t sam = 0xFE;  // source address mode
 inline constexpr uint8_t dam = 0xFF;  // destination address mode
 
-// The bits of CO_MPDO.Transferred, with the place of an object in them. place = num: the list does not contain it.
+// Bits of CO_MPDO.Transferred, and the index of an object in them. place = num: the scanner list does not contain it.
 struct Transferred {
   uint8_t* bytes;
   unsigned place;
@@ -33,7 +33,7 @@ inline void clear_mode(CO_PDO_MAP& map) { map.Mode = 0; }
 // Like pdo::resolve(), for a number of mapped objects above CO_PDO_MAP_N.
 [[nodiscard]] CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map);
 
-// Begins to receive the frames of an RPDO if it is a multiplex PDO; otherwise ends to receive them. identifier:
+// Adds a route for the frames of an RPDO if it is a multiplex PDO; otherwise removes its route. identifier:
 // wire::no_frame if the PDO does not exist.
 void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier);
 // Resolves the faults of an RPDO that stops.
@@ -55,7 +55,7 @@ void mark_all(CO_PDO& pdo);
 [[nodiscard]] bool is_pending(const CO_PDO& pdo);
 void clear_marks(CO_PDO& pdo);
 
-// Returns whether an object of the scanner list was sent, and clears its mark. transferred() returns where the mark is.
+// Returns whether an object of the scanner list was sent, and clears this mark. transferred() returns the mark's bit.
 [[nodiscard]] bool was_sent(CO_NODE& node, uint16_t entry);
 [[nodiscard]] Transferred transferred(CO_NODE& node, uint16_t entry);
 
