@@ -13,7 +13,8 @@ extern "C" {
 /// A classic timer driver (without context). It is one of two kinds:
 /// - cyclic: a periodic interrupt calls COTmrService(); Reload stores a count-down, Update decrements it and returns 1
 ///   at its end;
-/// - tickless ("delta"): Reload programs a compare match, whose interrupt calls COTmrService(); Update returns 1.
+/// - tickless ("delta"): Reload programs a compare match, whose interrupt calls COTmrService(); Update returns 1
+///   once for each expiry, otherwise 0.
 ///
 /// COTmrService() has to be called in the interrupt, because a driver without a clock cannot report how late the call
 /// is. Reload and Stop discard a pending expiry. A Reload that follows an Update that returned 1 should count from the

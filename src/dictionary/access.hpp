@@ -67,11 +67,12 @@ enum TransferFlag : uint8_t {
 // at the next frame of the client.
 void end_transfer(CO_NODE& node, CO_SDO& channel);
 
-// Calls end_transfer() for each transfer whose object fulfils a condition.
+// Calls end_transfer() for each transfer whose object fulfils a condition, which gets its address: of a node that was
+// not initialised yet, the address may be invalid.
 template <class Condition>
 void end_transfers(CO_NODE& node, Condition is_ended) {
   for (CO_SDO& channel : node.Sdo) {
-    if (channel.Obj != nullptr && is_ended(*channel.Obj)) {
+    if (channel.Obj != nullptr && is_ended(channel.Obj)) {
       end_transfer(node, channel);
     }
   }

@@ -112,8 +112,8 @@ void end_accesses(OD_t& od, uint16_t index) {
   if (is_extensible_of(od, index, own.Entry)) {
     own = {};
   }
-  access::end_transfers(node, [&](const CO_OBJ& obj) {
-    return (running == nullptr || &obj != served) && is_extensible_of(od, index, &obj);
+  access::end_transfers(node, [&](const CO_OBJ* obj) {
+    return (running == nullptr || obj != served) && is_extensible_of(od, index, obj);
   });
 }
 

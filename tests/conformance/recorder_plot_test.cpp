@@ -98,6 +98,42 @@ TEST_CASE("plot: a name without end does not make the picture endless [R4]") {
 
 // Points of an upload ------------------------------------------------------------------------------------------------
 
+// Reads a picture in segments; the name is replaced after some of them. Returns the bytes of the picture.
+std::size_t read_while_renamed(RecorderNode& node, unsigned after, std::uint32_t length, std::uint8_t character) {
+  constexpr unsigned most_segments = 500;
+  node.ask("601#4001240500000000", "581#4001240500000000");
+  std::size_t bytes = 0;
+  bool is_last = false;
+  for (unsigned n = 0; n < most_segments && !is_last; ++n) {
+    if (n == after) {
+      node.recorder.Name.Size = length;
+      std::fill(node.name.begin(), node.name.end(), character);
+    }
+    node.rx(n % 2 == 0 ? "601#6000000000000000" : "601#7000000000000000");
+    const auto sent = node.frames();
+    REQUIRE(sent.size() == 1);
+    const CO_IF_FRM segment = frame(sent[0]);
+    REQUIRE(segment.Data[0] < 0x20);  // not an abort
+    bytes += 7U - ((segment.Data[0] >> 1) & 7U);
+    is_last = (segment.Data[0] & 1) != 0;
+  }
+  CHECK(is_last);
+  return bytes;
+}
+
+TEST_CASE("plot: a name that changes during the upload of a picture does not make the picture endless [R4]") {
+  for (unsigned after = 10; after < 40; ++after) {
+    CAPTURE(after);
+    for (const std::uint32_t length : {0U, 1U, 20U}) {
+      for (const char character : {'&', 'x'}) {
+        RecorderNode node(Recorded().format(CO_RECORDER_SVG).name("&&&&&&&&"));
+        record(node, 1, 5);
+        CHECK(read_while_renamed(node, after, length, static_cast<std::uint8_t>(character)) < 1200);
+      }
+    }
+  }
+}
+
 TEST_CASE("plot: a read sees the points of its begin and removes them [R4]") {
   RecorderNode node;
   record(node, 1, 3);

@@ -226,6 +226,8 @@ TEST_CASE("eeprom_i2c: impossible settings have no capacity") {
   eeprom.AddressBytes = 4;
   CHECK(is_refused(eeprom));
   eeprom.AddressBytes = 1;
+  eeprom.Capacity = 2049;
+  CHECK(is_refused(eeprom));
   eeprom.Capacity = 4096;
   CHECK(is_refused(eeprom));
 }

@@ -169,6 +169,12 @@ TEST_CASE("flash_pages: an impossible geometry has no capacity") {
   CO_FLASH_PAGES none = *good;
   none.RegionNum = 0;
   CHECK(is_refused(none));
+  const CO_FLASH_REGION without_size[] = {
+      {0x0807F000, 2048, 126, 1}, {0x0807F800, 0, 127, 1}, {0x08080000, 4096, 128, 1}};
+  CO_FLASH_PAGES gap = *good;
+  gap.Regions = without_size;
+  gap.RegionNum = 3;
+  CHECK(is_refused(gap));
   const CO_FLASH_REGION odd = {0x0807F000, 2044, 126, 2};
   CO_FLASH_PAGES fraction = *good;
   fraction.Regions = &odd;

@@ -36,7 +36,9 @@ uint32_t block_size(const CO_EEPROM_I2C& eeprom) {
 // Returns the bytes that can be addressed; 0 if the settings of the context are impossible.
 uint32_t capacity_of(const CO_EEPROM_I2C& eeprom) {
   const bool has_address = eeprom.AddressBytes != 0 && eeprom.AddressBytes <= longest_address;
-  return has_address && eeprom.Capacity / block_size(eeprom) <= most_blocks ? eeprom.Capacity : 0;
+  const bool is_possible =
+      has_address && eeprom.Capacity != 0 && (eeprom.Capacity - 1) / block_size(eeprom) < most_blocks;
+  return is_possible ? eeprom.Capacity : 0;
 }
 
 Location locate(const CO_EEPROM_I2C& eeprom, uint32_t address) {

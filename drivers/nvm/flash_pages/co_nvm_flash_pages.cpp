@@ -13,12 +13,13 @@ const CO_FLASH_PAGES& memory(void* ctx) { return *static_cast<const CO_FLASH_PAG
 
 constexpr bool is_unit(uint32_t size) { return size != 0 && size <= CO_FLASH_UNIT_MAX && (size & (size - 1)) == 0; }
 
-// Returns the size of the smallest page, which is the size of every erase unit; 0 if there is no page.
+// Returns the size of the smallest page, which is the size of every erase unit; 0 if there is no page, or a region has
+// none.
 uint32_t smallest_page(const CO_FLASH_PAGES& flash) {
-  uint32_t smallest = 0;
-  for (uint32_t n = 0; n < flash.RegionNum; ++n) {
+  uint32_t smallest = flash.RegionNum != 0 ? flash.Regions[0].PageSize : 0;
+  for (uint32_t n = 1; n < flash.RegionNum; ++n) {
     const uint32_t size = flash.Regions[n].PageSize;
-    smallest = smallest == 0 || size < smallest ? size : smallest;
+    smallest = size < smallest ? size : smallest;
   }
   return smallest;
 }

@@ -311,8 +311,8 @@ void read_tokens(CO_RECORDER& recorder, uint8_t* buffer, uint32_t n) {
   while (!is_at_end(recorder) && (plot.At - from != n || is_part_over(recorder))) {
     Writer writer;
     const Token token = token_at(recorder, writer);
-    const uint32_t before = plot.At - plot.Cursor.Position;
-    CO_ASSERT(before <= token.length);
+    const uint32_t ahead = plot.At - plot.Cursor.Position;
+    const uint32_t before = ahead < token.length ? ahead : token.length;  // the name may have been changed meanwhile
     const uint32_t left = n - (plot.At - from);
     const uint32_t part = token.length - before < left ? token.length - before : left;
     if (buffer != nullptr) {
