@@ -82,7 +82,6 @@ uint32_t send_segments(CO_SDO& channel) {
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);
   while (channel.Seq != channel.BlkSize && provide(channel, position, abort)) {
     const uint32_t left = channel.Read - position;
-    CO_ASSERT(left <= channel.Fill);
     fill(frame, buffer_of(channel) + channel.Fill - left, left);
     position += smaller(wire::segment_bytes, left);
     const bool last = position == channel.Size;
