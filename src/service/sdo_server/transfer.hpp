@@ -162,7 +162,6 @@ constexpr uint32_t not_reached = 1;
 [[nodiscard]] inline uint8_t* buffer_of(const CO_SDO& channel) {
   constexpr size_t size = size_t{CO_SDO_BUF_SEG} * wire::segment_bytes;
   const CO_NODE& node = *channel.Node;
-  CO_ASSERT(node.SdoBuf != nullptr);
   return CO_SSDO_N == 1 ? node.SdoBuf : node.SdoBuf + size * static_cast<size_t>(&channel - node.Sdo);
 }
 
