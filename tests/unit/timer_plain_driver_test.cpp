@@ -37,6 +37,24 @@ TEST_CASE("timer: timers run on time with cyclic and with tickless classic drive
   }
 }
 
+TEST_CASE("timer: a classic driver that has elapsed is not programmed again before COTmrService()") {
+  OldNode t(false);
+  t.create(3, 0, 1);
+  plain_timer().now += 3;
+  plain_timer().left = 0;  // compare match; its interrupt is not processed yet
+  const std::int16_t id = t.create(1, 0, 2);
+  CHECK(plain_timer().left == 0);
+  CHECK(COTmrDelete(&t.node.Tmr, id) == 0);
+  CHECK(plain_timer().left == 0);
+  t.create(1, 0, 3);
+  CHECK(COTmrService(&t.node.Tmr) == 1);
+  CHECK(plain_timer().left == 1);
+  COTmrProcess(&t.node.Tmr);
+  CHECK(runs() == Runs{1});
+  t.tick();
+  CHECK(runs() == Runs{1, 3});
+}
+
 bool is_refusing = false;
 std::int16_t send_unless_refusing(CO_IF_FRM*) { return is_refusing ? std::int16_t{0} : sizeof(CO_IF_FRM); }
 
