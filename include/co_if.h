@@ -41,8 +41,8 @@ typedef struct CO_IF_T {
   bool IsElapsed;       ///< classic timer driver: its expiry is being processed by COTmrService()
 } CO_IF;
 
-/// Connects the interface with a node and initialises all drivers; called by CONodeInit(). \a freq: timer ticks per
-/// second.
+/// Connects the interface with a node and initialises all drivers. CONodeInit() has done both: not for a node that
+/// runs, because the timers of the stack would stop. \a freq: timer ticks per second.
 void COIfInit(CO_IF* cif, struct CO_NODE_T* node, uint32_t freq);
 
 /// Initialises the CAN driver; the controller stays off the bus.

@@ -219,6 +219,7 @@ CO_ERR CORecorderConfigure(CO_RECORDER* recorder, const CO_RECORDER_CONFIG* conf
 /// \retval CO_ERR_OBJ_STATE     the recorders are disabled (CO_TREC_ENABLE), no object is configured, the
 ///                              configuration in the dictionary was wrong, or the node is stopped
 /// \retval CO_ERR_OBJ_NOT_FOUND the object is no longer in the dictionary
+/// \retval CO_ERR_OBJ_MAP_TYPE  CODictInit() has changed the object's type, which cannot be recorded
 /// \retval other                error of the type of the object
 CO_ERR CORecorderSample(CO_RECORDER* recorder) CO_NEEDS(USE_RECORDER);
 
