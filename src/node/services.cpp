@@ -127,13 +127,21 @@ static_assert(is_ordered());
 
 constexpr size_t rows = sizeof table / sizeof table[0];
 
+// Calls a function of a service, if the service has it. A template argument can be null with the sanitizers of gcc, too,
+// where the comparison of a function with nullptr is no constant expression.
+template <void (*function)(CO_NODE& node)>
+struct Call {
+  [[gnu::always_inline]] static void with(CO_NODE& node) { function(node); }
+};
+template <>
+struct Call<nullptr> {
+  static void with(CO_NODE&) {}
+};
+
 // Calls a function of all services that have it.
 template <auto column, size_t row = 0>
 [[gnu::always_inline]] inline void run(CO_NODE& node) {
-  constexpr auto function = table[row].*column;
-  if constexpr (function != nullptr) {
-    function(node);
-  }
+  Call<table[row].*column>::with(node);
   if constexpr (row + 1 < rows) {
     run<column, row + 1>(node);
   }
