@@ -183,8 +183,9 @@ TEST_CASE("codict gen: --verify reports missing programs before anything is writ
       {"--stack '" LEXICAN_SOURCE_DIR "' -D '=5'", "-D =5: not of the form NAME=VALUE"},
       {"--stack '" LEXICAN_SOURCE_DIR "' -D 'A B=5'", "-D A B=5: not of the form NAME=VALUE"},
   };
-  for (const auto& [arguments, text] : cases) {
-    CAPTURE(arguments);
+  for (const auto& row : cases) {
+    const auto& [arguments, text] = row;
+    CAPTURE(row.first);
     const Ran ran = run(directory, small + " -o new --verify " + arguments);
     CHECK(ran.status == 2);
     CHECK_MESSAGE(test::has(ran.err, text), ran.err);

@@ -268,8 +268,9 @@ TEST_CASE("gen: a storage group keeps its values over power loss and can be rest
     {
       GeneratedNode node(dictionary.od, dictionary.length, memory);
       CHECK(node.error == CO_ERR_NONE);
-      for (const auto& [index, bytes] : changed) {
-        CAPTURE(index);
+      for (const auto& row : changed) {
+        const auto& [index, bytes] = row;
+        CAPTURE(row.first);
         CHECK(node.read(index, 0) == bytes);
       }
       CHECK(node.read(0x1016, 2) == "E8 03 07 00");
@@ -278,8 +279,9 @@ TEST_CASE("gen: a storage group keeps its values over power loss and can be rest
     }
     std::memset(dictionary.stored, 0x55, dictionary.stored_size);
     GeneratedNode node(dictionary.od, dictionary.length, memory);
-    for (const auto& [index, bytes] : changed) {
-      CAPTURE(index);
+    for (const auto& row : changed) {
+      const auto& [index, bytes] = row;
+      CAPTURE(row.first);
       CHECK(node.read(index, 0) == values.at(std::uint32_t{index} << 8));
     }
     CHECK(node.read(0x1016, 2) == "00 00 00 00");
@@ -293,8 +295,9 @@ TEST_CASE("gen: any write to a storage group sets 1020h to 0 [301:7.5.2.23]") {
     CAPTURE(dictionary.language);
     Memory memory;
     GeneratedNode node(dictionary.od, dictionary.length, memory);
-    for (const auto& [key, bytes] : changed) {
-      CAPTURE(key);
+    for (const auto& row : changed) {
+      const auto& [key, bytes] = row;
+      CAPTURE(row.first);
       for (std::uint8_t sub = 1; sub <= 2; ++sub) {
         CHECK(node.write(0x1020, sub, "01 02 03 04") == "ok");
       }
@@ -353,14 +356,16 @@ TEST_CASE("gen: resets set every entry that was written by SDO to its default va
     Memory memory;
     GeneratedNode node(dictionary.od, dictionary.length, memory);
     const auto write_all = [&](const auto& objects) {
-      for (const auto& [key, bytes] : objects) {
-        CAPTURE(key);
+      for (const auto& row : objects) {
+        const auto& [key, bytes] = row;
+        CAPTURE(row.first);
         CHECK(node.write(index_of(key), sub_of(key), bytes) == "ok");
       }
     };
     const auto check_defaults = [&](const auto& objects) {
-      for (const auto& [key, bytes] : objects) {
-        CAPTURE(key);
+      for (const auto& row : objects) {
+        const auto& [key, bytes] = row;
+        CAPTURE(row.first);
         CHECK(node.read(index_of(key), sub_of(key)) == values.at(key));
       }
     };
@@ -368,8 +373,9 @@ TEST_CASE("gen: resets set every entry that was written by SDO to its default va
     write_all(of_communication);
     node.say(0, reset_communication);
     check_defaults(of_communication);
-    for (const auto& [key, bytes] : of_application) {
-      CAPTURE(key);
+    for (const auto& row : of_application) {
+      const auto& [key, bytes] = row;
+      CAPTURE(row.first);
       CHECK(node.read(index_of(key), sub_of(key)) == (key == 0x200F00 ? bytes + " 44 55 66 77 88 99" : bytes));
     }
     write_all(of_communication);

@@ -53,10 +53,10 @@ TEST_CASE("gen: input that cannot be generated is an error at its place and no f
            sub("1010sub2", 7, "rw", "1") + variable("2000", 5, "rw", ";StorageLocation=APP\n"),
        "24:2 gen-store-unused\n31:2 gen-store\n"},
   };
-  for (const auto& [eds, found] : cases) {
-    CAPTURE(eds);
-    const Generated generated = generate(eds);
-    CHECK(generated.found == found);
+  for (const auto& test_case : cases) {
+    CAPTURE(test_case.first);
+    const Generated generated = generate(test_case.first);
+    CHECK(generated.found == test_case.second);
     CHECK_MESSAGE(generated.output.files.empty(), generated.found);
   }
   CHECK(generate("[FileInfo]\n").found == "1:1 gen-count\n");
@@ -84,10 +84,10 @@ TEST_CASE("gen: corrections are reported") {
       {variable("2000", 0x77, "rw", "DefaultValue=5"), "4:10 gen-type\n"},
       {record("1FFF") + variable("2000", 5, "rw"), "1:2 gen-no-subs\n"},
   };
-  for (const auto& [eds, found] : cases) {
-    CAPTURE(eds);
-    const Generated generated = generate(eds);
-    CHECK(generated.found == found);
+  for (const auto& test_case : cases) {
+    CAPTURE(test_case.first);
+    const Generated generated = generate(test_case.first);
+    CHECK(generated.found == test_case.second);
     CHECK(generated.output.files.size() == 2);
   }
 }

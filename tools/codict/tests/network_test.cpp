@@ -471,14 +471,14 @@ TEST_CASE("network: SRDOs are transmitted with their refresh time by one node an
   const Network network = network_of({commissioned(2, srdo("1")), commissioned(3, srdo("2"))});
   NetworkFindings findings(network);
   const Traffic traffic = traffic_of(network, links_of(network), findings);
-  for (const auto& [service, identifier] :
+  for (const auto& expected :
        {std::pair("SRDO 1 transmitted, plain", 0x103U), {"SRDO 1 transmitted, inverse", 0x104U}}) {
-    CAPTURE(service);
+    CAPTURE(expected.first);
     const auto message = std::find_if(traffic.messages.begin(), traffic.messages.end(),
-                                      [name = service](const Message& one) { return one.service == name; });
+                                      [&](const Message& one) { return one.service == expected.first; });
     REQUIRE(message != traffic.messages.end());
     CHECK(message->node == 0);
-    CHECK(message->frame.identifier == identifier);
+    CHECK(message->frame.identifier == expected.second);
     CHECK(message->frame.bytes == 2);
     CHECK(message->usual_period == 25000000);
   }

@@ -71,13 +71,13 @@ std::string_view key_of(std::string_view field) {
   return word != nullptr ? word->key : field;
 }
 
-bool parse_assignment(std::string_view words, Assignment& assignment, std::string& why) {
-  const std::size_t equals = words.find('=');
-  if (equals == std::string_view::npos || trimmed(words.substr(0, equals)).empty()) {
-    why = "not of the form field=value: " + std::string(words);
+bool parse_assignment(std::string_view text, Assignment& assignment, std::string& why) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos || trimmed(text.substr(0, equals)).empty()) {
+    why = "not of the form field=value: " + std::string(text);
     return false;
   }
-  assignment = {trimmed(words.substr(0, equals)), trimmed(words.substr(equals + 1))};
+  assignment = {trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))};
   return true;
 }
 

@@ -22,7 +22,7 @@ struct Assignment {
 };
 
 /// Parses an assignment. Returns false if it is malformed; why is then the reason in one line.
-bool parse_assignment(std::string_view words, Assignment& assignment, std::string& why);
+bool parse_assignment(std::string_view text, Assignment& assignment, std::string& why);
 
 /// Returns false if the text has several lines; why is then the reason in one line.
 bool has_one_line(std::string_view text, std::string& why);
