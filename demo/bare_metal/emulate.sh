@@ -54,14 +54,16 @@ run_alone() {
 }
 
 # Runs COMMAND --slcan SOCKET with a board: with_board BOARD PROGRAM COMMAND... The board starts when COMMAND has opened
-# the socket, and is stopped when COMMAND has ended. Prints the board's error messages.
+# the socket, and is stopped when COMMAND has ended. Prints the board's error messages. The board's clock counts
+# executed instructions, and follows real time only while the CPU sleeps: a node that a busy machine delays does not
+# time out.
 with_board() (
   read -ra qemu <<<"$(machine "$1")"
   program=$2
   shift 2
   place=$(mktemp -d)
   trap 'kill "$emulator" 2>/dev/null; wait "$emulator" 2>/dev/null; rm -r "$place"' EXIT
-  "${qemu[@]}" -display none -monitor none -semihosting-config enable=on,target=native \
+  "${qemu[@]}" -display none -monitor none -semihosting-config enable=on,target=native -icount shift=3 \
     -chardev "socket,id=can,path=$place/can,server=on,wait=on" -serial chardev:can -kernel "$program" \
     >"$place/log" 2>&1 &
   emulator=$!
@@ -77,7 +79,7 @@ with_board() (
 serve_board() {
   local qemu
   read -ra qemu <<<"$(machine "$1")"
-  exec "${qemu[@]}" -display none -monitor none -semihosting-config enable=on,target=native \
+  exec "${qemu[@]}" -display none -monitor none -semihosting-config enable=on,target=native -icount shift=3 \
     -chardev "socket,id=can,path=$3,server=on,wait=off" -serial chardev:can -kernel "$2"
 }
 

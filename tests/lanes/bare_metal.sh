@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the demo node on four microcontrollers without an operating system, in QEMU; the host's master, over slcan"
 minutes=2
-exclusive=yes  # the emulated UARTs lose bytes on a busy host
 . "$root/demo/bare_metal/emulate.sh"
 packages=("${build_packages[@]}")
 for board in "${boards[@]}"; do
@@ -81,7 +80,7 @@ count_steps() {
 
 name_of() {  # BOARD
   local name
-  name=$(master_at "$1" --node 1 --index 1009 --timeout 30000 read) && echo "$name" && [ "$name" = "$1" ]
+  name=$(master_at "$1" --node 1 --index 1009 --timeout 600000 read) && echo "$name" && [ "$name" = "$1" ]
 }
 
 # Serves like demo/run --bare-metal BOARD --serve: the emulator continues when a master has disconnected.
@@ -92,7 +91,7 @@ served() (  # BOARD
   trap 'kill "$emulator"; wait "$emulator"; rm -r "$place"' EXIT
   await_socket "$place/can" "$emulator"
   at_board() {
-    "$build/release/demo/linux_master/lexican-demo-master" --slcan "$place/can" --node 1 --timeout 30000 "$@"
+    "$build/release/demo/linux_master/lexican-demo-master" --slcan "$place/can" --node 1 --timeout 600000 "$@"
   }
   [ "$(at_board --index 1009 read)" = "$1" ] && at_board nmt start && [ "$(at_board --index 1008 read)" = "Lexican demo clock" ]
 )
