@@ -29,9 +29,9 @@ ends() {  # CASE STATUS PATTERN COMMAND...
   verdict $? "$name" "expected status $expected and '$pattern', got status $status and '$output'"
 }
 
-# Waits until a file has a matching line: await FILE REGEX
+# Waits minutes until a file has a matching line, for a busy machine: await FILE REGEX
 await() {
-  local tries=200
+  local tries=6000
   until grep -qsE "$2" "$1" || [ $((tries -= 1)) -eq 0 ]; do sleep 0.05; done
   [ $tries -gt 0 ]
 }

@@ -3,6 +3,8 @@
 # serve.sh NODE MASTER
 #
 # Tests the demo node on a pseudo-terminal, with the master at its other end: a bus without CAN support of the kernel.
+# Both run in real time, so each case waits for an event, for minutes. LSS selects the node by its address, because a
+# fastscan treats a late answer as a missing one; demo_lss_test.cpp and the lane vcan test the fastscan in simulated time.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 node=${1:?the demo node} master=${2:?the demo master}
@@ -28,7 +30,9 @@ stop() {  # CASE
   verdict $status "$1" "status $status"
 }
 
-at_node() { "$master" --slcan "$pty" "$@"; }
+at_node() { "$master" --slcan "$pty" --timeout 600000 "$@"; }
+lss() { at_node lss --address 0 0xC10C 1 7 "$@"; }  # the node with --serial 7
+has_booted() { await "$work/trace" '705 +00 .*boot-up'; }
 
 serve --node-id 5
 grep -qx "Master: demo/run master --slcan $pty --node 5 --index 1008 read" "$work/trace"
@@ -51,20 +55,22 @@ ends "NMT start" 0 "" at_node --node 5 nmt start
 await "$work/trace" 'bus +000 +01 05 .*NMT start' && await "$work/trace" '705 +05 .*operational'
 verdict $? "the node is operational" "$(tail "$work/trace")"
 ends "NMT reset communication of all nodes" 0 "" at_node nmt reset-comm --node all
-await "$work/trace" '000 +82 00' && await "$work/trace" '705 +00 .*boot-up'
+await "$work/trace" '000 +82 00' && has_booted
 verdict $? "the node has booted" "$(tail "$work/trace")"
 stop "the node ends with status 0"
 
-serve --node-id unconfigured
+serve --node-id unconfigured --serial 7
 grep -qx "Master: demo/run master --slcan $pty lss set-id 5" "$work/trace"
 verdict $? "without a file the node cannot store" "$(cat "$work/trace")"
-ends "LSS gives a node-ID that is not stored" 0 "vendor-ID, product code, revision, serial number: 0x00000000 0x0000C10C *" at_node lss set-id 5
+ends "LSS gives a node-ID that is not stored" 0 "" lss set-id 5
 stop "the node that does not store ends with status 0"
 
-serve --node-id unconfigured --storage "$work/clock.nvm"
+serve --node-id unconfigured --serial 7 --storage "$work/clock.nvm"
 grep -qx "Master: demo/run master --slcan $pty lss set-id 5 --store" "$work/trace"
 verdict $? "without node-ID, the output names the LSS command" "$(cat "$work/trace")"
-ends "LSS gives the node-ID" 0 "vendor-ID, product code, revision, serial number: 0x00000000 0x0000C10C *" at_node lss set-id 5 --store
+ends "LSS gives the node-ID" 0 "" lss set-id 5 --store
+has_booted
+verdict $? "the node boots with it" "$(tail "$work/trace")"
 ends "the node answers with it" 0 "Lexican demo clock" at_node --node 5 --index 1008 read
 stop "the node without node-ID ends with status 0"
 
@@ -78,11 +84,9 @@ wait $client 2>/dev/null
 ends "another master after one that was killed" 0 "0x0000C10C" at_node --node 5 --index 1018 --sub 2 read
 stop "it, too, ends with status 0"
 
-# Checks that time on the built-in bus is simulated: it passes only while the program waits, so a slow machine is not
-# late.
-begin=$(date +%s%N)
-ends "the tour on the built-in bus" 0 "*built-in virtual bus*simulated time*22 of 22 steps in 1?.? s, all as expected" \
-  "$node" --virtual
-[ $(($(date +%s%N) - begin)) -lt 10000000000 ]
-verdict $? "it takes less time than it shows" "took $((($(date +%s%N) - begin) / 1000000)) ms"
+# Time on the built-in bus is simulated: two runs print the same times, in milliseconds, of all frames.
+tour() { "$node" --virtual | tee "$work/$1"; }
+ends "the tour on the built-in bus" 0 "*built-in virtual bus*simulated time*22 of 22 steps in 1?.? s, all as expected" tour one
+ends "the tour again" 0 "*22 of 22 steps in 1?.? s, all as expected" tour other
+ends "both have the same times" 0 "" diff "$work/one" "$work/other"
 finish
