@@ -44,7 +44,7 @@ now_in() { echo "${2:-0} $1" >"$results/$lane_name.now"; }
 # Succeeds if the thread sanitizer detects a data race in a program without locks.
 finds_races() {  # PROGRAM
   local said
-  said=$(TSAN_OPTIONS=halt_on_error=1 timeout 120 setarch -R "$1" 2>&1)
+  said=$(TSAN_OPTIONS=halt_on_error=1 timeout 1200 setarch -R "$1" 2>&1)
   grep 'WARNING: ThreadSanitizer: data race' <<<"$said"
 }
 

@@ -10,6 +10,6 @@ lane() {
     -DCMAKE_CXX_COMPILER=clang++ -DLEXICAN_SANITIZE=thread || return
   run_doctest threads setarch -R "$build/threads/tests/lexican_thread_tests"
   local demo=$build/threads/demo/two_threads
-  check "two threads use a node in turns" timeout 120 setarch -R "$demo/lexican-demo-two-threads"
+  check "two threads use a node in turns" timeout 1200 setarch -R "$demo/lexican-demo-two-threads"
   check "the sanitizer finds races where turns are missing" finds_races "$demo/lexican-demo-without-node-lock"
 }
