@@ -18,7 +18,7 @@ import tempfile
 OPTIONS = ("--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run", "--disable-extensions",
            "--disable-background-networking", "--disable-component-update", "--allow-file-access-from-files",
            "--remote-debugging-pipe", "about:blank")
-TIMEOUT = 60  # seconds for an answer or for loading a page
+TIMEOUT = 600  # seconds for an answer or for loading a page: minutes, for a busy machine
 LARGEST_PICTURE = 16000  # pixels; Chromium draws higher pictures incompletely
 
 # Ends when the images that scripts have added are loaded or have failed, and the page is laid out.

@@ -23,7 +23,7 @@ builds() {
 
 # Runs are the same on every host, as each instruction takes the same time on the clock of the emulated machine.
 run_on_machine() {  # PROGRAM
-  run_tap timeout 120 "$qemu" -M sabrelite,canbus0=bus,canbus1=bus -object can-bus,id=bus -m 256M -display none \
+  run_tap timeout 1200 "$qemu" -M sabrelite,canbus0=bus,canbus1=bus -object can-bus,id=bus -m 256M -display none \
     -monitor none -serial null -chardev stdio,id=host -semihosting-config enable=on,target=native,chardev=host \
     -icount shift=4,sleep=off -kernel "$build/sabrelite/$1.elf"
 }

@@ -13,7 +13,7 @@ lane() {
 
 # Runs are the same on every host, as each instruction takes the same time on the clock of the emulated machine.
 run_on_machine() {  # PROGRAM
-  run_tap timeout 120 qemu-system-aarch64 -M xlnx-zcu102,canbus0=bus,canbus1=bus -object can-bus,id=bus -m 256M \
+  run_tap timeout 1200 qemu-system-aarch64 -M xlnx-zcu102,canbus0=bus,canbus1=bus -object can-bus,id=bus -m 256M \
     -display none -audiodev none,id=none -monitor none -serial none -chardev stdio,id=host \
     -semihosting-config enable=on,target=native,chardev=host -icount shift=4,sleep=off -kernel "$build/zynqmp/$1"
 }
