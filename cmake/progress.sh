@@ -12,7 +12,8 @@ progress_of_log() {  # LOG: "12 of 89" of a build with ninja, otherwise the last
 
 watch_log() {  # WHAT LOG PID: until the process has ended
   local begin=$SECONDS
-  while sleep 1 && kill -0 "$3" 2>/dev/null; do
+  # The last sleep may outlive with_progress: it must not keep a pipe open that the caller reads.
+  while sleep 1 >/dev/null 2>&1 && kill -0 "$3" 2>/dev/null; do
     if [ -t 2 ]; then
       printf '\r\033[K%s: %d s, %s' "$1" $((SECONDS - begin)) "$(progress_of_log "$2")" >&2
     elif [ $(((SECONDS - begin) % 15)) -eq 0 ]; then
