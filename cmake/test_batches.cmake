@@ -4,12 +4,16 @@
 # of the same names. The headers of all files come first, outside of these namespaces; a file that includes headers
 # inside of an #if is compiled alone.
 include_guard(GLOBAL)
-set(LEXICAN_TEST_BATCH 8 CACHE STRING "Test files in one translation unit")
+set(LEXICAN_TEST_BATCH 16 CACHE STRING "Test files in one translation unit")
+set(LEXICAN_TEST_FILES "" CACHE STRING "Regular expression of the test files to compile, for work on some of them")
 
 function(lexican_test_batches target)
   # An edited file may include another header.
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
   set(rest "")
+  if(LEXICAN_TEST_FILES)
+    list(FILTER ARGN INCLUDE REGEX ${LEXICAN_TEST_FILES})
+  endif()
   foreach(file IN LISTS ARGN)
     file(STRINGS ${file} lines REGEX "^#(if|include)")
     if(lines MATCHES "#if.*#include")

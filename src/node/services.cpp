@@ -127,8 +127,8 @@ static_assert(is_ordered());
 
 constexpr size_t rows = sizeof table / sizeof table[0];
 
-// Calls a function of a service, if the service has it. A template argument can be null with the sanitizers of gcc, too,
-// where the comparison of a function with nullptr is no constant expression.
+// Calls a function of a service, if the service has it. A template argument can be null with the sanitizers of gcc,
+// too, where the comparison of a function with nullptr is no constant expression.
 template <void (*function)(CO_NODE& node)>
 struct Call {
   [[gnu::always_inline]] static void with(CO_NODE& node) { function(node); }

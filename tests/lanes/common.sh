@@ -5,7 +5,6 @@
 #   minutes    approximate duration of the lane when it runs alone on two cores, for --list
 #   packages   PACKAGE[=PROBE]... (see cmake/install_packages.sh)
 #   optional   not empty: the lane is skipped, with a reason, where its packages cannot be installed
-#   exclusive  not empty: no other lane runs at the same time
 #   waiting    not empty: the lane mostly waits, so it runs beside two others and before them
 # and defines lane(), which reports each case by the functions below. The runner sets $lane_name, $root, $build and
 # $results; $full is empty in the contributor's run.
@@ -38,15 +37,10 @@ skip() {  # WHAT AND WHY: one case
   echo "   SKIPPED $1"
 }
 
-# Informs tests/run of the log that shows the lane's progress, and of the number of its cases: now_in LOG [CASES]
-now_in() { echo "${2:-0} $1" >"$results/$lane_name.now"; }
-
-# Succeeds if the thread sanitizer detects a data race in a program without locks.
-finds_races() {  # PROGRAM
-  local said
-  said=$(TSAN_OPTIONS=halt_on_error=1 timeout 1200 setarch -R "$1" 2>&1)
-  grep 'WARNING: ThreadSanitizer: data race' <<<"$said"
-}
+# Informs tests/run of what the lane does now: now TEXT, or by the log that shows its progress and the number of its
+# cases: now_in LOG [CASES]
+now() { echo "$1" >"$results/$lane_name.now"; }
+now_in() { now "log ${2:-0} $1"; }
 
 measure_lane() {
   trap 'echo "$passed $failed $skipped" >"$results/$lane_name.count"' EXIT
@@ -57,17 +51,23 @@ measure_lane() {
 
 # Builds "${targets[@]}", by default all, of the project in $source, by default the stack, in build/NAME: build_tree
 # NAME CMAKE-ARGUMENT... The preset is full unless an argument sets another one, as it has several SDO servers. The
-# tools are not built: they have a lane. Lanes that share a build tree build one after the other.
+# tools are not built: they have a lane. A warning is a failure. Lanes that share a build tree build one after the other.
 build_tree() {
-  local name=$1 log=$results/build-$1.log
+  local name=$1 log=$results/build-$lane_name-$1.log
   shift
   mkdir -p "$build"
-  now_in "$log"
   if ! {
+    now "waits until another lane has built $name"
     flock 9
-    cmake -S "$root/${source:-}" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full "$@" && cmake --build "$build/$name" --target "${targets[@]:-all}"
+    now_in "$log"
+    cmake --no-warn-unused-cli -S "$root/${source:-}" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full -DLEXICAN_TEST_FILES= \
+      -DLEXICAN_WARNINGS_AS_ERRORS=ON "$@" &&
+      cmake --build "$build/$name" --target "${targets[@]:-all}"
   } 9>"$build/$name.lock" >"$log" 2>&1; then
     fail "build of $name" "$log"
+    return 1
+  elif grep -qE '\bwarning: |CMake (Deprecation )?Warning' "$log"; then
+    fail "build of $name has warnings" "$log"
     return 1
   fi
 }
@@ -77,6 +77,30 @@ build_preset() {  # PRESET [NAME CMAKE-ARGUMENT...]
   local preset=$1 name=${2:-$1}
   shift
   (cd "$root" && build_tree "$name" --preset "$preset" "${@:2}")
+}
+
+# Builds "${targets[@]}" with gcc's sanitizers in build/gcc. The sweeps are thin: lane clang runs them completely. The tests'
+# own code is compiled without the sanitizer for undefined behaviour, which takes time.
+sanitized_tree() {
+  build_tree gcc -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_COMPILER=gcc -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_FLAGS_DEBUG="-g1 -O1" \
+    -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O1" -DLEXICAN_SANITIZE=address,undefined -DLEXICAN_FUZZ=ON -DLEXICAN_THIN_SWEEPS=ON \
+    -DLEXICAN_TEST_OPTIONS="-O0;-g0;-fno-sanitize=undefined"
+}
+
+# Builds codict as a project for another machine does (tests/package), once for all lanes, and sets $codict to its path.
+host_codict() {
+  local targets=(lexican) log=$results/$lane_name-host-codict.log
+  codict=$build/release/tests/package/generate.cross/lexican_host_codict/codict
+  build_preset release || return
+  now "waits until another lane has built codict"
+  if ! {
+    flock 9
+    now "building codict"
+    ctest --test-dir "$build/release/tests/package" --no-tests=error --output-on-failure -R '^package\.generate\.cross$'
+  } 9>"$build/host-codict.lock" >"$log" 2>&1; then
+    fail "build of codict" "$log"
+    return 1
+  fi
 }
 
 # Runs a doctest program and counts its cases: run_doctest WHAT COMMAND... Two processes run at the same time, one with
@@ -112,17 +136,25 @@ count_doctest() {  # WHAT STATUS LOG
   fi
 }
 
-# Counts the cases that the program skips on this machine (doctest::skip), by suite, with the suite's reason
-# (doctest::description).
+# Counts the cases that the program skips on this machine (doctest::skip), by their suite, which says what they need.
 count_unrun() {  # WHAT COMMAND...
   local what=$1 unrun line
   shift
-  unrun=$(diff <("$@" --no-colors --list-test-cases --no-skip=true 2>/dev/null) <("$@" --no-colors --list-test-cases 2>/dev/null) |
-    sed -n 's/^< //p' | grep -v '^\[doctest\]\|^===')
+  unrun=$("$@" --list-test-cases --reporters=xml --no-skip=true 2>/dev/null |
+    sed -n 's/.*<TestCase .* testsuite="\([^"]*\)".* skipped="true".*/\1/p')
   [ -n "$unrun" ] || return 0
   line=$(wc -l <<<"$unrun")
   skipped=$((skipped + line))
-  echo "   SKIPPED $line cases of $what that this machine cannot run: $(sed 's/:.*//' <<<"$unrun" | sort | uniq -c | awk '{ n = $1; $1 = ""; printf "%s%s (%d)", (NR > 1) ? "," : "", $0, n }')"
+  sort <<<"$unrun" | uniq -c | sed -E "s/^ *([0-9]+) (.*)/   SKIPPED \1 cases of $what: \2/"
+}
+
+# Checks that each of these source files is compiled in a build tree, by itself or in a batch: built_from TREE
+# PLACE... -name PATTERN
+built_from() {
+  local tree=$1 missing
+  shift
+  missing=$(comm -23 <(sources "$@") <(ninja -C "$build/$tree" -t deps | sed -n "s#^ *$root/##p" | sort -u))
+  if [ -z "$missing" ]; then pass; else fail "not built in $tree: ${missing//$'\n'/ }"; fi
 }
 
 # Runs the ctest cases of a build directory and counts them: run_ctest WHAT DIRECTORY [CTEST-ARGUMENT...]

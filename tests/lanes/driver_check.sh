@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the driver check of docs/porting.md on the drivers of Lexican, and on faulty drivers, whose faults it must detect"
 minutes=2
-packages=("${build_packages[@]}" "${clang_packages[@]}" "${arm_packages[@]}")
+packages=("${build_packages[@]}" "${arm_packages[@]}")
 
 lane() {
-  local tree=$build/driver_check log=$results/build-driver_check.log
-  { cmake -S "$root/tests/driver_check" -B "$tree" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-    -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DLEXICAN_WARNINGS_AS_ERRORS=ON -DLEXICAN_SANITIZE=address,undefined &&
-    cmake --build "$tree" --target driver_check_host; } >"$log" 2>&1 || { fail "build of driver_check" "$log"; return; }
+  local targets=(driver_check_host) tree=$build/gcc/tests/driver_check
+  sanitized_tree || return
   local files
   files=$(mktemp -d)
   run_tap "$tree/driver_check_host" "$files"

@@ -4,6 +4,7 @@ minutes=1
 packages=("${build_packages[@]}" clang "${arm_packages[@]}")
 
 lane() {
+  local targets=(lexican)
   build_preset release || return
   run_ctest failing_builds "$build/release/tests/failing_builds"
 }

@@ -1,20 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
-about="all doctest cases, small demos and the recipes of docs/cookbook.md, gcc -O2"
-minutes=4
+about="all doctest cases, the C programs, small demos and recipes, gcc${full:+ with address and undefined behaviour sanitizers, and the fuzz inputs of the stack}"
+minutes=${full:+5}
+: "${minutes:=3}"
+. "$root/tests/fuzz/build.sh"
 packages=("${build_packages[@]}" python3)
 
-# A contributor's run compiles the tests as fast as possible and reduces the sweeps. The full run optimises the tests,
-# which run the complete sweeps four times as fast then.
 lane() {
-  if [ -z "$full" ]; then
-    build_preset release release -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_THIN_SWEEPS=ON || return
+  local tree=release target
+  if [ -n "$full" ]; then
+    tree=gcc
+    local targets=(all "${stack_fuzz_targets[@]/%/_fuzz}")
+    sanitized_tree || return
   else
-    build_preset release release -DLEXICAN_TEST_OPTIONS=-O1 -DLEXICAN_THIN_SWEEPS=OFF || return
+    build_preset release release -DLEXICAN_THIN_SWEEPS=ON || return
   fi
-  run_doctest gcc "$build/release/tests/lexican_tests"
-  run_doctest "gcc models" "$build/release/tests/models/lexican_model_tests"
-  run_doctest "gcc controllers" "$build/release/tests/controllers/lexican_controller_tests"
-  run_doctest "gcc memories" "$build/release/tests/memories/lexican_memory_tests"
-  run_ctest system "$build/release/tests/system"
-  run_ctest cookbook "$build/release/tests/cookbook"
+  run_doctest gcc "$build/$tree/tests/lexican_tests"
+  run_doctest "gcc models" "$build/$tree/tests/models/lexican_model_tests"
+  run_doctest "gcc controllers" "$build/$tree/tests/controllers/lexican_controller_tests"
+  run_doctest "gcc memories" "$build/$tree/tests/memories/lexican_memory_tests"
+  built_from "$tree" tests/{unit,conformance,integration,models,controllers,memories} -name '*_test.cpp'
+  run_ctest system "$build/$tree/tests/system"
+  run_ctest cookbook "$build/$tree/tests/cookbook"
+  run_ctest compat "$build/$tree/tests/compat"
+  built_from "$tree" tests/{cookbook,compat} -name '*.c' -not -name other_configuration.c  # compiled by a case of ctest
+  [ -n "$full" ] || return 0
+  for target in "${stack_fuzz_targets[@]}"; do
+    check "$target" "$build/gcc/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
+  done
 }

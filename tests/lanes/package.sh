@@ -6,8 +6,12 @@ packages=("${build_packages[@]}" pkg-config)
 [ -z "$full" ] || packages+=("${tool_packages[@]}" "${arm_packages[@]}" make)
 
 lane() {
-  build_preset release || return
-  local without=()
-  [ -n "$full" ] || without=(-LE cross)
+  local codict without=() targets=(lexican)
+  if [ -n "$full" ]; then
+    host_codict || return
+  else
+    without=(-LE cross)
+    build_preset release release -DLEXICAN_THIN_SWEEPS=ON || return
+  fi
   run_ctest package "$build/release/tests/package" "${without[@]}"
 }

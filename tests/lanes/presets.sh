@@ -4,7 +4,7 @@ minutes=2
 packages=("${build_packages[@]}")
 
 # Builds the smallest configuration for size, so that each preset of CMakePresets.json is used. The sweeps are reduced:
-# lane gcc runs them completely. Lane target runs the doctest cases in the configuration slave, on a Cortex-M0.
+# lane clang runs them completely. Lane target runs the doctest cases in the configuration slave, on a Cortex-M0.
 lane() {
   local targets=(lexican_tests tests/compat/all)
   build_preset size preset-minimal -DLEXICAN_PRESET=minimal -DLEXICAN_THIN_SWEEPS=ON || return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the test runner: it detects cases that did not run and programs that end early"
+about="the test runner: it detects cases that did not run, programs that end early, files that are not built, and warnings"
 minutes=1
 packages=()
 
@@ -12,6 +12,43 @@ lane() {
   counts tap "1 1" 2 "ok a" "not ok b"
   counts tap "1 1" 2 "ok a"
   check "a lane that runs nothing fails" fails_empty_lane
+  check "a file that is not built fails" counts_of "1 0" built_of a_test.cpp b_test.cpp
+  check "files that are built pass" counts_of "0 1" built_of a_test.cpp
+  check "a build without a warning passes" counts_of "0 0" build_that_prints "[1/1] Building warning.cpp.o"
+  check "a build with a warning of the compiler fails" counts_of "1 0" build_that_prints "a.cpp:1:1: warning: unused variable"
+  check "a build with a warning of CMake fails" counts_of "1 0" build_that_prints "CMake Deprecation Warning at a.cmake:1:"
+  check "a skipped case says what it needs" skips_with_suite
+}
+
+# Runs a function in a subshell, and checks the numbers of failed and passed cases.
+counts_of() {  # "FAILED PASSED" COMMAND...
+  local counted
+  counted=$(
+    passed=0 failed=0
+    "${@:2}" >&2
+    echo "$failed $passed"
+  )
+  echo "$counted instead of $1"
+  test "$counted" = "$1"
+}
+
+# Of these files, only a_test.cpp is built.
+built_of() {  # FILE...
+  local files=("$@")
+  sources() { printf '%s\n' "${files[@]}"; }
+  ninja() { printf 'a.o: #deps 1\n    %s\n' "$root/a_test.cpp"; }
+  built_from tree
+}
+
+build_that_prints() {  # LINE
+  local line=$1 build=$results/runner-build
+  cmake() { echo "$line"; }
+  build_tree runner
+}
+
+skips_with_suite() {
+  program() { echo '<TestCase name="a" testsuite="needs a bus" filename="a.cpp" line="1" skipped="true"/>'; }
+  (count_unrun "a program" program) | grep -x '   SKIPPED 1 cases of a program: needs a bus'
 }
 
 fails_empty_lane() {

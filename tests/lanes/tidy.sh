@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 about="clang-tidy over src and drivers, with the checks of .clang-tidy"
-minutes=2
+minutes=1
 packages=("${build_packages[@]}" "${clang_packages[@]}" clang-tidy-14)
 places=(src drivers)
 with_tools=OFF
+# States of a function that the analyzer explores. Its default is 225000, which takes four times as long: lane tidy_deep.
+limits=(--extra-arg=-Xclang --extra-arg=-analyzer-config --extra-arg=-Xclang --extra-arg=max-nodes=50000)
 
 # Configures the preset only: this determines the compiler options of each file, and nothing needs to be built.
 lane() {
@@ -17,8 +19,8 @@ lane() {
   sources "${places[@]}" -name '*.cpp' -not -path '*/template/*' |
     xargs -P "$(nproc)" -I FILE bash -c '
       log=$1/$(tr / - <<<"$2").log
-      clang-tidy-14 -p "$3" --quiet --warnings-as-errors="*" "$4/$2" >"$log" 2>&1 && echo clean >>"$log"' \
-      tidy "$logs" FILE "$build/development" "$root"
+      clang-tidy-14 -p "$3" --quiet --warnings-as-errors="*" "${@:5}" "$4/$2" >"$log" 2>&1 && echo clean >>"$log"' \
+      tidy "$logs" FILE "$build/development" "$root" "${limits[@]}"
   for file in "$logs"/*.log; do
     check "${file##*/}" clean_log "$file"
   done

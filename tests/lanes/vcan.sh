@@ -8,6 +8,7 @@ waiting=yes
 
 lane() {
   local check=$results/driver_check_socketcan
+  local codict targets=(lexican-demo-node lexican-demo-master lexican_bus_tests)
   build_preset release || return
   driver_check "$check" >"$results/driver_check_socketcan.log" 2>&1 || {
     fail "build of the driver check" "$results/driver_check_socketcan.log"
@@ -15,15 +16,14 @@ lane() {
   }
   heater >"$results/heater.log" 2>&1 || { fail "build of demo/heater" "$results/heater.log"; return; }
   run_tap "$root/tests/system/vcan/run" "$build/release/demo/linux_node/lexican-demo-node" \
-    "$build/release/demo/linux_master/lexican-demo-master" "$build/release/tests/lexican_tests" "$check" \
+    "$build/release/demo/linux_master/lexican-demo-master" "$build/release/tests/lexican_bus_tests" "$check" \
     "$build/heater/heater"
 }
 
-# Builds as README describes; uses the codict of lane package, if that has been built.
+# Builds as README describes, with the codict that a project for another machine has built.
 heater() {
-  local codict=$build/release/tests/package/generate.cross/lexican_host_codict/codict known=()
-  [ ! -x "$codict" ] || known=(-DLEXICAN_CODICT="$codict")
-  cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja "${known[@]}" && cmake --build "$build/heater"
+  host_codict && cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja -DLEXICAN_CODICT="$codict" &&
+    cmake --build "$build/heater"
 }
 
 driver_check() {  # PROGRAM

@@ -25,6 +25,7 @@ using demo::SlcanHost;
 
 constexpr std::int16_t taken = sizeof(CO_IF_FRM);
 
+constexpr const char* needs_terminals = "needs pseudo-terminals: mount -t devpts devpts /dev/pts";
 /// Returns true if pseudo-terminals exist. A chroot without the file system devpts has none.
 bool has_terminals() {
   const int fd = ::posix_openpt(O_RDWR | O_NOCTTY);
@@ -199,7 +200,8 @@ TEST_CASE("slcan host: a refusal of the adapter is reported") {
   CHECK(line.host.bus_fault().find("has refused a command or a frame") != std::string::npos);
 }
 
-TEST_CASE("slcan host, needs devpts: a terminal transfers bytes unchanged" * doctest::skip(!has_terminals())) {
+TEST_CASE("slcan host: a terminal transfers bytes unchanged" * doctest::test_suite(needs_terminals) *
+          doctest::skip(!has_terminals())) {
   const int fd = ::posix_openpt(O_RDWR | O_NOCTTY);
   REQUIRE(fd >= 0);
   REQUIRE(::grantpt(fd) == 0);
@@ -224,8 +226,8 @@ TEST_CASE("slcan host: a failure to open is reported as text") {
   CHECK(host.open("/", 0).find("slcan adapter '/': ") == 0);
 }
 
-TEST_CASE("slcan host, needs devpts: a pseudo-terminal transfers frames while another program has it open" *
-          doctest::skip(!has_terminals())) {
+TEST_CASE("slcan host: a pseudo-terminal transfers frames while another program has it open" *
+          doctest::test_suite(needs_terminals) * doctest::skip(!has_terminals())) {
   const Interruption interruption;
   SlcanHost device(interruption);
   REQUIRE(device.open_pseudo_terminal() == "");

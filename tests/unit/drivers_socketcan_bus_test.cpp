@@ -111,7 +111,7 @@ Texts received(SocketCan& can) {
 
 }  // namespace
 
-TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
+TEST_SUITE("needs root and a kernel with CAN, as in lane vcan" * doctest::skip(!has_can())) {
   TEST_CASE("socketcan on a bus: frames are sent with all flags and not received by their sender") {
     const Interface vcan;
     SocketCan a;

@@ -474,7 +474,7 @@ $master --node 9 nmt start
 expect "the generated node sends changed values" "$tpdo#??00 $tpdo#??00"
 kill $server
 
-lexican_tests --test-suite="socketcan on a bus" >/tmp/socketcan 2>&1
+lexican_bus_tests >/tmp/socketcan 2>&1
 summary=$(grep "test cases:" /tmp/socketcan)
 echo "$summary" | grep -Eq "test cases: +10 +\| +10 passed"
 verdict $? "the SocketCAN driver on real interfaces: 10 cases" "$summary"

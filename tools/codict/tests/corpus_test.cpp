@@ -108,7 +108,8 @@ std::string rewritten(const eds::Document& document) {
 
 }  // namespace
 
-TEST_CASE("corpus: all EDS and DCF are read without losing a value of an object" * test::skipped_without_corpus()) {
+TEST_CASE("corpus: all EDS and DCF are read without losing a value of an object" *
+          doctest::test_suite(test::needs_corpus) * test::skipped_without_corpus()) {
   std::size_t number = 0;
   for (const std::string& path : test::files_in(test::corpus(), test::eds_endings())) {
     CAPTURE(path);
@@ -125,7 +126,8 @@ TEST_CASE("corpus: all EDS and DCF are read without losing a value of an object"
   CHECK(number > 0);
 }
 
-TEST_CASE("corpus: writing each value that was read changes no byte" * test::skipped_without_corpus()) {
+TEST_CASE("corpus: writing each value that was read changes no byte" * doctest::test_suite(test::needs_corpus) *
+          test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::eds_endings())) {
     CAPTURE(path);
     Findings findings;
@@ -134,7 +136,8 @@ TEST_CASE("corpus: writing each value that was read changes no byte" * test::ski
   }
 }
 
-TEST_CASE("corpus: files that are not EDS are refused with one message" * test::skipped_without_corpus()) {
+TEST_CASE("corpus: files that are not EDS are refused with one message" * doctest::test_suite(test::needs_corpus) *
+          test::skipped_without_corpus()) {
   std::vector<std::string> foreign = test::files_in(test::corpus(), {".eds", ".dcf", ".xdc"}, true);
   for (const std::string& topology : test::files_in(test::corpus(), {".cpj"})) {
     foreign.push_back(topology);

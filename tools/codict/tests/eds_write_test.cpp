@@ -61,7 +61,7 @@ TEST_CASE("EDS writer: each fixture that is written and read again is the same d
 }
 
 TEST_CASE("EDS writer: each description of the corpus that is written and read again is the same device" *
-          test::skipped_without_corpus()) {
+          doctest::test_suite(test::needs_corpus) * test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::eds_endings())) {
     check_round_trip(path);
   }

@@ -12,6 +12,8 @@ namespace test {
 
 /// Returns the directory in the environment variable LEXICAN_CORPUS, null if it is not set.
 const char* corpus();
+/// Suite of the test cases that need the corpus; tests/run prints it if they are skipped.
+inline constexpr const char* needs_corpus = "needs LEXICAN_CORPUS, a directory of device descriptions";
 /// Skips test cases that need the corpus if there is none.
 doctest::skip skipped_without_corpus();
 

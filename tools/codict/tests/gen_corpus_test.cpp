@@ -95,7 +95,8 @@ void in_two_threads(std::size_t number, Job job) {
 
 }  // namespace
 
-TEST_CASE("gen: each description in the corpus gives a dictionary that compiles" * test::skipped_without_corpus()) {
+TEST_CASE("gen: each description in the corpus gives a dictionary that compiles" *
+          doctest::test_suite(test::needs_corpus) * test::skipped_without_corpus()) {
   const test::Directory directory;
   const std::vector<Named> all = devices();
   std::vector<std::string> faults(2 * all.size());

@@ -124,7 +124,7 @@ TEST_CASE("JSON: each fixture that is written and read again is the same device"
 }
 
 TEST_CASE("JSON: each description of the corpus that is written and read again is the same device" *
-          test::skipped_without_corpus()) {
+          doctest::test_suite(test::needs_corpus) * test::skipped_without_corpus()) {
   CHECK(check_round_trips(test::corpus()) > 0);
 }
 

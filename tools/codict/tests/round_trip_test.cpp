@@ -205,7 +205,7 @@ TEST_CASE("convert: losses in another format are reported for each fixture and e
 }
 
 TEST_CASE("convert: losses in another format are reported for each description of the corpus" *
-          test::skipped_without_corpus()) {
+          doctest::test_suite(test::needs_corpus) * test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::all_endings())) {
     CAPTURE(path);
     check_all_ways(description_of(test::bytes_of(path), path));

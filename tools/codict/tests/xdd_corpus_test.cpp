@@ -151,7 +151,7 @@ bool is_of_cia311(const Device& device) {
 }  // namespace
 
 TEST_CASE("corpus: all XML descriptions are read without losing an object or parameter" *
-          test::skipped_without_corpus()) {
+          doctest::test_suite(test::needs_corpus) * test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::xml_endings())) {
     CAPTURE(path);
     const std::string bytes = bytes_of(path);
@@ -163,7 +163,7 @@ TEST_CASE("corpus: all XML descriptions are read without losing an object or par
 }
 
 TEST_CASE("corpus: a description written in either edition of CiA 311 and read again is the same" *
-          test::skipped_without_corpus()) {
+          doctest::test_suite(test::needs_corpus) * test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::xml_endings())) {
     CAPTURE(path);
     const test::XmlReading reading(bytes_of(path), path);
@@ -179,7 +179,7 @@ TEST_CASE("corpus: a description written in either edition of CiA 311 and read a
 }
 
 TEST_CASE("corpus: XML texts that are written as they were read have the same meaning" *
-          test::skipped_without_corpus()) {
+          doctest::test_suite(test::needs_corpus) * test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::xml_endings())) {
     CAPTURE(path);
     const std::string bytes = bytes_of(path);
@@ -196,7 +196,7 @@ TEST_CASE("corpus: XML texts that are written as they were read have the same me
 }
 
 TEST_CASE("corpus: other XML and files that are not XML are refused with one message" *
-          test::skipped_without_corpus()) {
+          doctest::test_suite(test::needs_corpus) * test::skipped_without_corpus()) {
   std::size_t number = 0;
   for (const std::string& path : test::files_in(test::corpus(), test::xml_endings(), true)) {
     CAPTURE(path);

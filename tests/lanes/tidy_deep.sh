@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 . "$root/tests/lanes/tidy.sh"
-about="clang-tidy over tools"
+about="clang-tidy over src, drivers and tools, with the default limit of its analyzer"
 unset minutes
 packages+=("${tool_packages[@]}")
-places=(tools)
+places=(src drivers tools)
 with_tools=ON
+limits=()
