@@ -127,21 +127,20 @@ static_assert(is_ordered());
 
 constexpr size_t rows = sizeof table / sizeof table[0];
 
-// Calls a function of a service, if the service has it. A template argument can be null with the sanitizers of gcc,
-// too, where the comparison of a function with nullptr is no constant expression.
+// Whether a service has a function. With its sanitizers gcc does not take the comparison of a function with nullptr for
+// a constant expression.
 template <void (*function)(CO_NODE& node)>
-struct Call {
-  [[gnu::always_inline]] static void with(CO_NODE& node) { function(node); }
-};
+constexpr bool exists = true;
 template <>
-struct Call<nullptr> {
-  static void with(CO_NODE&) {}
-};
+constexpr bool exists<nullptr> = false;
 
 // Calls a function of all services that have it.
 template <auto column, size_t row = 0>
 [[gnu::always_inline]] inline void run(CO_NODE& node) {
-  Call<table[row].*column>::with(node);
+  constexpr auto function = table[row].*column;
+  if constexpr (exists<function>) {
+    function(node);
+  }
   if constexpr (row + 1 < rows) {
     run<column, row + 1>(node);
   }
