@@ -7,19 +7,15 @@ for board in "${boards[@]}"; do
   mapfile -t -O ${#packages[@]} packages < <(board_packages "$board")
 done
 
-# Builds only the master, in the build tree of the lane vcan.
-build_master() {
-  (cd "$root" && cmake -S "$root" -B "$build/release" -G Ninja -DLEXICAN_PRESET=full --preset release) &&
-    cmake --build "$build/release" --target lexican-demo-master
-}
-
 # Builds for one board after the other, then runs all boards at the same time.
 lane() {
-  build_master >"$results/build-bare-metal.log" 2>&1 || { fail "build of the master" "$results/build-bare-metal.log"; return; }
-  local board
+  local board arguments targets=(lexican-demo-master)
+  build_preset release || return  # in the build tree of the lane vcan
+  targets=(lexican-demo-bare-metal lexican-timer-test)
   for board in "${boards[@]}"; do
-    build_board "$board" "$build/bare-metal-$board" lexican-demo-bare-metal lexican-timer-test \
-      >"$results/build-bare-metal-$board.log" 2>&1 || fail "build for $board" "$results/build-bare-metal-$board.log"
+    mapfile -t arguments < <(toolchain "$board")
+    build_tree "bare-metal-$board" -DCMAKE_BUILD_TYPE=MinSizeRel -DLEXICAN_PRESET=slave -DLEXICAN_TESTS=OFF \
+      -DLEXICAN_DEMO=ON -DLEXICAN_PRECOMPILED=ON -DLEXICAN_WARNINGS_AS_ERRORS=ON -DLEXICAN_BOARD="$board" "${arguments[@]}"
   done
   for board in "${boards[@]}"; do
     run_board "$board" "$results/bare-metal-$board" &
