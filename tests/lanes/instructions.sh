@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-about="instructions of operations on Cortex-M3 and Cortex-M0+ (emulated) and on the host; compared with docs/speed.md"
+about="instructions of operations on Cortex-M3, Cortex-M0+ (emulated) and the host, and of the worst frame; compared with docs/speed.md"
+. "$root/tests/lanes/library.sh"
 minutes=1
 packages=(cmake ninja-build=ninja g++ valgrind "${arm_packages[@]}" qemu-system-arm python3)
 
-# Counts are the same on every host, as each instruction takes the same time on the clock of the emulated machine.
 lane() {
-  count_on_arm m3 cortex-m3 RelWithDebInfo && count_on_arm m0plus cortex-m0plus MinSizeRel && count_on_host || return
+  build_library m3 -O2 -DLEXICAN_BENCH=ON -DLEXICAN_FRAME_BOUND=ON -DLEXICAN_CPU=cortex-m3 \
+    -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/arm-none-eabi.cmake" || return
+  count_operations
+  count_worst_frame
+}
+
+count_operations() {
+  count_on_arm m3 && build_m0plus_programs && count_on_arm m0plus && count_on_host || return
   local of=$results/instructions arm host
   arm="arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion)"
   host="$(g++ -dumpmachine)-g++ $(g++ -dumpfullversion)"
@@ -19,29 +26,32 @@ lane() {
 
 programs=(lexican lexican_many_pdos lexican_od)
 
-build_bench() {  # NAME CMAKE-BUILD-TYPE CMAKE-ARGUMENT...
-  build_tree "bench-$1" -DLEXICAN_PRESET=slave -DLEXICAN_BENCH=ON -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF \
-    -DLEXICAN_DRIVERS=OFF -DCMAKE_BUILD_TYPE="$2" "${@:3}"
+build_m0plus_programs() {
+  local targets=("${programs[@]/%/_instructions}")
+  build_m0plus -DLEXICAN_BENCH=ON
 }
 
-count_on_arm() {  # NAME CPU CMAKE-BUILD-TYPE: -O2 or -Os
-  build_bench "$1" "$3" -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_CPU="$2" || return
+count_on_arm() {  # TREE
   local program
   for program in "${programs[@]}"; do
-    run_counting "$results/instructions-$1-$program" timeout 300 qemu-system-arm -M mps2-an385 -display none \
-      -monitor none -serial none -chardev stdio,id=host -semihosting-config enable=on,target=native,chardev=host \
-      -icount shift=10 -kernel "$build/bench-$1/tests/bench/${program}_instructions" || return
+    run_on_machine "$results/instructions-$1-$program" "$build/$1/tests/bench/${program}_instructions" || return
   done
 }
 
+# Counts are the same on every host, as each instruction takes the same time on the clock of the emulated machine.
+run_on_machine() {  # RESULT PROGRAM
+  run_counting "$1" timeout 300 qemu-system-arm -M mps2-an385 -display none -monitor none -serial none \
+    -chardev stdio,id=host -semihosting-config enable=on,target=native,chardev=host -icount shift=10 -kernel "$2"
+}
+
 count_on_host() {
-  build_bench host RelWithDebInfo -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc || return
+  build_library host-O2 -O2 -DLEXICAN_BENCH=ON -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc || return
   local program of
   for program in "${programs[@]}"; do
     of=$results/callgrind-$program
     rm -f "$of".[0-9]*
     run_counting "$of.reports" timeout 300 valgrind --quiet --tool=callgrind --collect-atstart=no \
-      --callgrind-out-file="$of" "$build/bench-host/tests/bench/${program}_instructions" &&
+      --callgrind-out-file="$of" "$build/host-O2/tests/bench/${program}_instructions" &&
       run_counting "$results/instructions-host-$program" python3 "$root/tests/bench/callgrind/read.py" "$of.reports" \
         "$of".[0-9]* || return
   done
@@ -54,4 +64,23 @@ run_counting() {  # RESULT COMMAND...
     fail "${result##*/}" "$result"
     return 1
   }
+}
+
+# Counts the instructions per frame in the committed inputs of the fuzz targets and in sweeps.
+count_worst_frame() {
+  local of=$results/frame_bound target measured=()
+  for target in node sdo_client sdo_server sweep; do
+    run_on_machine "$of-$target" "$build/m3/tests/frame_bound/${target}_frame_bound" || return
+    measured+=("$of-$target")
+  done
+  worst_of "${measured[@]}" >"$of"
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/frame_bound/bounds.txt" \
+    --page "$root/docs/speed.md" --table frame_bound --title frame --remark "the worst" --percent 5 \
+    --column "instructions" "arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion)" "$of"
+}
+
+# Prints the line with the largest number for each name, in the order of the first file.
+worst_of() {  # FILE...
+  awk -F '\t' '/^#/ { next } !($1 in most) { names[++number] = $1 } $2 > most[$1] + 0 { most[$1] = $2; line[$1] = $0 }
+    END { for (n = 1; n <= number; ++n) print line[names[n]] }' "$@"
 }

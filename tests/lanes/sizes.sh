@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-about="flash and RAM of nodes, modules, settings and each additional object; compared with docs/sizes.md"
+about="flash and RAM of nodes, modules, settings and each additional object, stack depth of functions; compared with docs/sizes.md"
+. "$root/tests/lanes/library.sh"
 minutes=3
 packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}" gcc-riscv64-unknown-elf=riscv64-unknown-elf-g++
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/lib/libc.a)
@@ -14,19 +15,20 @@ lane() {
   local cpu preset
   for cpu in rv32 m4 m0plus; do
     choose_cpu $cpu
-    build_library $cpu || return
+    build_library "sizes-$cpu" "-Os ${lto[*]}" -DLEXICAN_SIZES=ON "${configure[@]}" || return
     rm -f "$of-$cpu" "$of-$cpu-lto"
     for preset in "${presets[@]}"; do
       size_of_node $cpu "$preset" || return
     done
   done
-  size_of_switches && size_of_memory && size_of_things || return
+  build_configurations && size_of_switches && size_of_memory && size_of_things || return
   report_nodes
   report_modules
   report_memory
   report_things
   report_switches
   self_test
+  stack_depths
 }
 
 # Sets the tools for the functions below. The objects contain machine code and the data for link-time optimisation.
@@ -46,20 +48,11 @@ choose_cpu() {  # CPU
   lto=(-flto -ffat-lto-objects)
 }
 
-build_library() {  # CPU
-  local compared=
-  [ "$1" != m0plus ] || compared=$(IFS=';'; echo "${switches[*]}")
-  build_tree "sizes-$1" -DLEXICAN_PRESET=slave -DLEXICAN_SIZES=ON -DLEXICAN_SWITCHES="$compared" "${configure[@]}" \
-    -DCMAKE_BUILD_TYPE=MinSizeRel -DCMAKE_CXX_FLAGS_MINSIZEREL="-Os -DNDEBUG ${lto[*]}" \
-    -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF
-}
-
-objects_of() {  # CPU CONFIGURATION
-  if [ "$2" = slave ]; then
-    echo "$build/sizes-$1/src/CMakeFiles/lexican.dir"
-  else
-    echo "$build/sizes-$1/tests/sizes/CMakeFiles/lexican_$2.dir"
-  fi
+# Builds the libraries that are linked without link-time optimisation, for the switches and the stack depth.
+build_configurations() {
+  local targets=(lexican_full "${switches[@]/#/lexican_}")
+  targets=("${targets[@]/=/_}")
+  build_m0plus -DLEXICAN_SIZES=ON -DLEXICAN_SWITCHES="$(IFS=';'; echo "${switches[*]}")"
 }
 
 compile_c() {  # SOURCE OUTPUT FLAG...
@@ -73,8 +66,8 @@ size_of_node() {  # CPU PRESET
   [ "$2" != minimal ] || smallest=1
   [ "$2" != full ] || everything=yes
   compile_c whole_node.c "$program.o" "$(preset_flag "$2")" -DNODE_IS_SMALLEST=$smallest "${lto[@]}" >"$of.log" 2>&1 &&
-    link_node "$(objects_of "$1" "$2")" "$program" "$everything" -fno-lto -Wl,-Map="$program.map" &&
-    link_node "$(objects_of "$1" "$2")" "$program" "$everything" -flto=2 -o "$program-lto" ||
+    link_node "sizes-$1/lexican_$2" "$program" "$everything" -fno-lto -Wl,-Map="$program.map" &&
+    link_node "sizes-$1/lexican_$2" "$program" "$everything" -flto=2 -o "$program-lto" ||
     { fail "link of $2 for $1" "$of.log"; return 1; }
   python3 "$root/tests/sizes/modules.py" "$program.map" >"$of-$1-$2-modules" || return
   size_lines "$2" "$program" "$(awk '/^all modules/ { print $NF }' "$of-$1-$2-modules")" >>"$of-$1"
@@ -86,16 +79,21 @@ size_of_node() {  # CPU PRESET
 size_with_classic_drivers() {  # CPU PRESET
   local program=$build/sizes-$1/classic-$2
   compile_c whole_node.c "$program.o" "$(preset_flag "$2")" -DNODE_IS_SMALLEST=1 -DNODE_IS_CLASSIC=1 "${lto[@]}" \
-    >"$of.log" 2>&1 && link_node "$(objects_of "$1" "$2")" "$program" "" -fno-lto -Wl,-Map="$program.map" ||
+    >"$of.log" 2>&1 && link_node "sizes-$1/lexican_$2" "$program" "" -fno-lto -Wl,-Map="$program.map" ||
     { fail "link of $2 with classic drivers for $1" "$of.log"; return 1; }
   printf '%s with classic drivers, flash of the stack alone\t%d\n' "$2" \
     "$(python3 "$root/tests/sizes/modules.py" "$program.map" | awk '/^all modules/ { print $NF }')" >>"$of-$1"
 }
 
+# Prints the objects of a library, in the order of their sources.
+objects_of() {  # TREE/LIBRARY
+  sed -n 's,/[.]/,/,; s,.*[.]dir/\(__/__/src/\)*\(.*\),\2 &,p' "$build/$1.objects" | sort | cut -d ' ' -f 2
+}
+
 # Links a program. With EVERYTHING all functions that an application may call are kept.
-link_node() {  # OBJECTS PROGRAM EVERYTHING FLAG...: links PROGRAM.o
+link_node() {  # TREE/LIBRARY PROGRAM EVERYTHING FLAG...: links PROGRAM.o
   local objects keep=()
-  mapfile -t objects < <(find "$1" -name '*.o*' | sort)
+  mapfile -t objects < <(objects_of "$1")
   [ -z "$3" ] || mapfile -t keep < <("$tools-nm" -fposix "${objects[@]}" 2>/dev/null |
     awk '$1 ~ /^(CO|OD)/ && $2 ~ /^[TRD]$/ { print "-Wl,--undefined=" $1 }' | sort)
   "${compile[@]}" "${specs[@]}" -o "$2" "${@:4}" "$2.o" "${objects[@]}" "${keep[@]}" -nostartfiles -Wl,--gc-sections \
@@ -121,18 +119,18 @@ bytes_of() {  # OBJECT-OR-PROGRAM
 size_of_switches() {
   local switch before after
   rm -f "$of-switches-flash" "$of-switches-ram"
-  before=($(size_with slave)) || return
+  before=($(size_with sizes-m0plus/lexican_slave)) || return
   for switch in "${switches[@]}"; do
-    after=($(size_with "${switch/=/_}" -D"$switch")) || return
+    after=($(size_with "m0plus/lexican_${switch/=/_}" -D"$switch")) || return
     printf '%s %s\t%d\n' "${switch%=*}" "${switch#*=}" $((after[0] - before[0])) >>"$of-switches-flash"
     printf '%s %s\t%d\n' "${switch%=*}" "${switch#*=}" $((after[1] - before[1])) >>"$of-switches-ram"
   done
 }
 
-size_with() {  # CONFIGURATION FLAG...: prints the bytes of flash and of RAM
-  local program=$build/sizes-m0plus/node-$1
+size_with() {  # TREE/LIBRARY FLAG...: prints the bytes of flash and of RAM
+  local program=$build/$1-node
   compile_c memory.c "$program.o" -DMAIN "${@:2}" >"$of.log" 2>&1 &&
-    link_node "$(objects_of m0plus "$1")" "$program" yes -fno-lto ||
+    link_node "$1" "$program" yes -fno-lto ||
     { fail "link with $1" "$of.log" >&2; return 1; }
   local linked alone
   linked=($(bytes_of "$program")) alone=($(bytes_of "$program.o"))
@@ -236,6 +234,36 @@ report_things() {
 report_switches() {
   report switches "switch" --percent 1 --slack 32 \
     --column "flash" "$arm" "$of-switches-flash" --column "RAM" "$arm" "$of-switches-ram"
+}
+
+# Evaluates the functions of the C run time, too, which a program with the whole library contains.
+stack_depths() {
+  local of=$results/stack objects
+  mapfile -t objects < <(objects_of m0plus/lexican_full)
+  "${compile[@]}" "${objects[@]}" -nostartfiles "${specs[@]}" -Wl,-e,CONodeProcess -o "$of.elf" >"$of.log" 2>&1 ||
+    { fail "link of the library" "$of.log"; return 1; }
+  rm -f "$of-depths"
+  run_tap depths_of "$of" "$root/tests/stack/calls.txt"
+  [ -f "$of-depths" ] || return
+  planted_calls "a call without a line" '^base/timer.cpp' "no line lists what timer.Func() may call"
+  planted_calls "a function that calls itself" '^limit' "leads to a function that calls itself"
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/stack/depths.txt" \
+    --page "$root/docs/sizes.md" --table stack --title function --remark "by way of" --column bytes "$arm" "$of-depths"
+}
+
+depths_of() {  # RESULT CALLS
+  python3 -B "$root/tests/stack/depth.py" --objects "${objects[@]}" --sources "$root/src" --calls "$2" \
+    --program "$results/stack.elf" --tools arm-none-eabi- --depths "$1-depths" --ways "$1-ways"
+}
+
+# Checks that depth.py detects what calls.txt does not list.
+planted_calls() {  # WHAT LINES-LEFT-OUT WHY
+  grep -v "$2" "$root/tests/stack/calls.txt" >"$of-planted"
+  check "found: $1" calls_are_refused "$3"
+}
+
+calls_are_refused() {  # WHY
+  ! depths_of "$of-of-planted" "$of-planted" >"$of-refused" && grep "^not ok .*$1" "$of-refused"
 }
 
 # Checks that numbers.py detects deviations.

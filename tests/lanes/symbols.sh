@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 about="forbidden symbols in the library: heap, exceptions, C++ run time, static objects, software floating point"
 minutes=1
+. "$root/tests/lanes/library.sh"
 packages=("${build_packages[@]}" clang "${arm_packages[@]}")
 
 # Symbols that the library may require: functions that every C compiler assumes, and integer division, shifts and
@@ -9,21 +10,21 @@ allowed='mem(cpy|move|set|cmp)|strlen|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|ll?sl
 allowed+='|__gnu_thumb1_case_[a-z]+|_GLOBAL_OFFSET_TABLE_'
 
 lane() {
-  library gcc-size "$build/symbols-gcc" nm objdump -DCMAKE_CXX_COMPILER=g++
-  library clang-size "$build/symbols-clang" nm objdump -DCMAKE_CXX_COMPILER=clang++
-  library cortex-m0 "$build/symbols-arm" arm-none-eabi-nm arm-none-eabi-objdump \
-    -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/arm-none-eabi.cmake"
+  local targets=(lexican)
+  build_library symbols-gcc -Os -DLEXICAN_PRESET=full -DCMAKE_CXX_COMPILER=g++ &&
+    library gcc-size "$build/symbols-gcc/src/liblexican.a" nm objdump
+  build_library symbols-clang -Os -DLEXICAN_PRESET=full -DCMAKE_CXX_COMPILER=clang++ &&
+    library clang-size "$build/symbols-clang/src/liblexican.a" nm objdump
+  targets=(lexican_full)
+  build_m0plus -DLEXICAN_SIZES=ON &&
+    library cortex-m0plus "$build/m0plus/tests/sizes/liblexican_full.a" arm-none-eabi-nm arm-none-eabi-objdump
   check "a C program is linked by gcc alone, without the C++ run time" links_as_c
   self_test
 }
 
-# Builds the library alone and checks its symbols: library WHAT DIRECTORY NM OBJDUMP …
-library() {
-  local what=$1 directory=$2 nm=$3 objdump=$4
-  shift 4
-  build_tree "${directory##*/}" -DCMAKE_BUILD_TYPE=MinSizeRel -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF \
-    -DLEXICAN_WARNINGS_AS_ERRORS=ON "$@" || return
-  local archive=$directory/src/liblexican.a
+# Checks the symbols of the library.
+library() {  # WHAT ARCHIVE NM OBJDUMP
+  local what=$1 archive=$2 nm=$3 objdump=$4
   check "$what: has objects" has_objects "$nm" "$archive"
   check "$what: needs nothing but what is allowed" needs_only_allowed "$nm" "$archive"
   check "$what: no C++ run time in it" no_cpp_runtime "$nm" "$archive"

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 about="functions that operations call, at -O0; compared with tests/walk/walks.txt and docs/design.md"
 minutes=1
+. "$root/tests/lanes/library.sh"
 packages=(g++ cmake ninja-build=ninja python3 binutils=nm)
 
 lane() {
   local targets=(lexican_walk)
-  build_tree walk -DLEXICAN_PRESET=slave -DLEXICAN_WALK=ON -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF \
-    -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc || return
+  build_library walk -O3 -DLEXICAN_WALK=ON -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc || return
   local compiler
   compiler="g++ $(g++ -dumpfullversion)"
   grep -q "^# $compiler$" "$root/tests/walk/walks.txt" || [ -n "$update_numbers" ] ||

@@ -200,7 +200,7 @@ def measured(depths):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--objects", type=Path, required=True, help="directory of the objects and what was told of them")
+    parser.add_argument("--objects", type=Path, nargs="+", required=True, help="objects, with their call graphs beside them")
     parser.add_argument("--sources", type=Path, required=True, help="src/")
     parser.add_argument("--calls", type=Path, required=True, help="calls.txt")
     parser.add_argument("--program", required=True, help="has the functions of the C library")
@@ -209,7 +209,7 @@ def main():
     parser.add_argument("--ways", type=Path, required=True, help="to be written: every way")
     arguments = parser.parse_args()
     sys.setrecursionlimit(10000)
-    program = Program(arguments.objects.resolve(), arguments.sources.resolve(), arguments.tools)
+    program = Program(arguments.objects, arguments.sources.resolve(), arguments.tools)
     run_time = RunTime(program.output_of("objdump", "-td", arguments.program))
     depths = Depths(program, Targets(arguments.calls.read_text(encoding="utf-8"), program), run_time)
     cases = list(verdicts(depths))

@@ -76,7 +76,7 @@ DECORATION = re.compile(r"^\*|_of_a_library_with_the_same_co_cfg_values_\d+$")
 
 
 class Program:
-    """Of all objects below a directory, of sources below another."""
+    """Of objects, of sources below a directory. Call graphs are beside the objects."""
 
     def __init__(self, objects, sources, tools):
         self.sources = sources
@@ -84,11 +84,11 @@ class Program:
         self.functions = {}
         self.tables = {}  # (file, symbol) → {offset: title of a function}
         self.outside = set()  # symbols of nobody here
-        graphs = sorted(objects.rglob("*.ci"))
-        for graph in graphs:
+        graphs = {each: each.with_suffix(".ci") for each in objects}
+        for graph in graphs.values():
             self.read_graph(graph.read_text(encoding="utf-8"))
-        for graph in graphs:
-            self.read_object(next(graph.parent.glob(graph.stem + ".o*")), self.file_of_graph(graph))
+        for each, graph in graphs.items():
+            self.read_object(each, self.file_of_graph(graph))
         self.name_functions()
 
     def relative(self, path):
