@@ -2,7 +2,7 @@
 about="forbidden symbols in the library: heap, exceptions, C++ run time, static objects, software floating point"
 minutes=1
 . "$root/tests/lanes/library.sh"
-packages=("${build_packages[@]}" clang "${arm_packages[@]}")
+packages=("${build_packages[@]}" clang "${arm_packages[@]}" python3)
 
 # Symbols that the library may require: functions that every C compiler assumes, and integer division, shifts and
 # switches of the Arm run time, but no software floating point.
