@@ -6,7 +6,7 @@
 build_library() {
   build_tree "$1" -DLEXICAN_PRESET=slave -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF \
     -DLEXICAN_BENCH=OFF -DLEXICAN_FRAME_BOUND=OFF -DLEXICAN_SIZES=OFF -DLEXICAN_SWITCHES= -DLEXICAN_PRECOMPILED=ON \
-    -DLEXICAN_WARNINGS_AS_ERRORS=ON -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="$2 -DNDEBUG" "${@:3}"
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="$2 -DNDEBUG" "${@:3}"
 }
 
 # The library for Cortex-M0+ at -Os, with the data that the stack depth is computed from; without link-time optimisation.
