@@ -61,7 +61,7 @@ build_tree() {
     flock 9
     now_in "$log"
     cmake --no-warn-unused-cli -S "$root/${source:-}" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full -DLEXICAN_TEST_FILES= \
-      -DLEXICAN_WARNINGS_AS_ERRORS=ON "$@" &&
+      -DLEXICAN_PRECOMPILED=ON -DLEXICAN_WARNINGS_AS_ERRORS=ON "$@" &&
       cmake --build "$build/$name" --target "${targets[@]:-all}"
   } 9>"$build/$name.lock" >"$log" 2>&1; then
     fail "build of $name" "$log"
