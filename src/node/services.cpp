@@ -127,8 +127,8 @@ static_assert(is_ordered());
 
 constexpr size_t rows = sizeof table / sizeof table[0];
 
-// Whether a service has a function. With its sanitizers gcc does not take the comparison of a function with nullptr for
-// a constant expression.
+// True if a service has the function. With its sanitizers gcc does not accept "function != nullptr" as a constant
+// expression.
 template <void (*function)(CO_NODE& node)>
 constexpr bool exists = true;
 template <>

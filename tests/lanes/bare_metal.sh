@@ -15,7 +15,7 @@ lane() {
   for board in "${boards[@]}"; do
     mapfile -t arguments < <(toolchain "$board")
     build_tree "bare-metal-$board" -DCMAKE_BUILD_TYPE=MinSizeRel -DLEXICAN_PRESET=slave -DLEXICAN_TESTS=OFF \
-      -DLEXICAN_DEMO=ON -DLEXICAN_PRECOMPILED=ON -DLEXICAN_BOARD="$board" "${arguments[@]}"
+      -DLEXICAN_DEMO=ON -DLEXICAN_BOARD="$board" "${arguments[@]}"
   done
   for board in "${boards[@]}"; do
     run_board "$board" "$results/bare-metal-$board" &

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 about="all doctest cases with complete sweeps, the C programs and the recipes, clang"
 minutes=3
-packages=("${build_packages[@]}" python3 clang)
+packages=("${build_packages[@]}" python3 clang lld=ld.lld)
 
 lane() {
   local targets=(lexican_tests lexican_model_tests lexican_controller_tests lexican_memory_tests tests/compat/all tests/cookbook/all)

@@ -22,7 +22,7 @@ lane() {
   run_ctest system "$build/$tree/tests/system"
   run_ctest cookbook "$build/$tree/tests/cookbook"
   run_ctest compat "$build/$tree/tests/compat"
-  built_from "$tree" tests/{cookbook,compat} -name '*.c' -not -name other_configuration.c  # compiled by a case of ctest
+  built_from "$tree" tests/{cookbook,compat} -name '*.c*' -not -name other_configuration.c  # compiled by a case of ctest
   [ -n "$full" ] || return 0
   for target in "${stack_fuzz_targets[@]}"; do
     check "$target" "$build/gcc/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"

@@ -12,6 +12,7 @@ file, function, line and change, and the first case that fails.
 import argparse
 import concurrent.futures
 import hashlib
+import itertools
 import os
 import pathlib
 import random
@@ -28,16 +29,18 @@ RELATIONS = {"==": "!=", "!=": "==", "<": "<=", "<=": "<", ">": ">=", ">=": ">"}
 RELATION = re.compile(r" (==|!=|<=|>=|<|>) ")
 NUMBER = re.compile(r"(?<![\w.'\"])(\d+)(U?)(?![\w.'\"])")
 CONDITION = re.compile(r"\bif \(([^;]*)\) \{$")
-STATEMENT = re.compile(r"^ +(?!return\b|break|continue|const |static|using |constexpr|uint|int|bool |case |default|\}|else)"
+STATEMENT = re.compile(r"^ +(?!return\b|break|continue|const |static|using |constexpr|uint|int|bool |case |default|"
+                       r"\}|else)"
                        r"(?:[\w:.\[\]>*()-]+(?: [-+|&^]?= |\().*|\+\+.*|--.*);$")
-FUNCTION = re.compile(r"^(?:\[\[.*\]\] )?(?!namespace|struct|class|enum|using|static_assert|extern|template)[\w:][\w:<>&*,~ ]*?"
-                      r"\b([\w:~]+)\(.*")
+FUNCTION = re.compile(r"^(?:\[\[.*\]\] )?(?!namespace|struct|class|enum|using|static_assert|extern|template)[\w:]"
+                      r"[\w:<>&*,~ ]*?\b([\w:~]+)\(.*")
 
 
 def mutants_of(path, text):
     """Yields (line, kind, new text of the line, description, function)."""
-    function, in_table = "", False
+    function, in_table, before = "", False, ""
     for number, line in enumerate(text.split("\n")):
+        begins, before = not before or before.endswith((";", "{", "}", ":")), line.split("//")[0].rstrip()
         match = FUNCTION.match(line)
         if match:
             function, in_table = match.group(1), False
@@ -57,8 +60,9 @@ def mutants_of(path, text):
                 yield number, "number", new, function
         match = CONDITION.search(code)
         if match:
-            yield number, "condition", code[:match.start(1)] + "!(" + match.group(1) + ")" + code[match.end(1):], function
-        if STATEMENT.match(code):
+            new = code[:match.start(1)] + "!(" + match.group(1) + ")" + code[match.end(1):]
+            yield number, "condition", new, function
+        if begins and STATEMENT.match(code):
             yield number, "statement", re.match(" *", code).group() + ";", function
 
 
@@ -67,14 +71,12 @@ class Tree:
 
     def __init__(self, root, directory):
         self.source, self.build = directory / "source", directory / "build"
-        if self.source.exists():
-            shutil.rmtree(self.source)
+        shutil.rmtree(directory, ignore_errors=True)
         shutil.copytree(root, self.source, ignore=shutil.ignore_patterns("build", ".git"), symlinks=True)
         self.log = directory / "log"
-        launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-        self.run("cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", "-DLEXICAN_PRESET=full", "-DCMAKE_BUILD_TYPE=Debug",
-                 "-DCMAKE_C_FLAGS_DEBUG=-O1", "-DCMAKE_CXX_FLAGS_DEBUG=-O1", "-DLEXICAN_THIN_SWEEPS=ON",
-                 "-DLEXICAN_TEST_OPTIONS=-O0", *launcher)
+        self.run("cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", "-DLEXICAN_PRESET=full",
+                 "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_C_FLAGS_DEBUG=-O1", "-DCMAKE_CXX_FLAGS_DEBUG=-O1",
+                 "-DLEXICAN_THIN_SWEEPS=ON")
         if not self.make("lexican_tests"):
             sys.exit(f"the tree without a mutant is not built, see {self.log}")
         self.original = self.machine_code()
@@ -87,6 +89,9 @@ class Tree:
             return subprocess.run([str(part) for part in command], stdout=log, stderr=subprocess.STDOUT, check=False,
                                   **options).returncode
 
+    def said(self):
+        return self.log.read_text(encoding="utf-8", errors="replace")
+
     def make(self, *targets):
         return self.run("cmake", "--build", self.build, "-j", "1", "--target", *targets) == 0
 
@@ -97,14 +102,14 @@ class Tree:
         """Returns the first case that fails, or None."""
         limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS))
         if not self.make("lexican_tests"):
-            return "the linker"
+            return "the build of the tests"
         if self.run(self.build / "tests/lexican_tests", "--no-colors", "--abort-after=1", preexec_fn=limit) != 0:
-            found = re.search(r"^TEST CASE: +(.*)", self.log.read_text(encoding="utf-8", errors="replace"), re.M)
+            found = re.search(r"^TEST CASE: +(.*)", self.said(), re.M)
             return found.group(1) if found else "ended early"
         if not self.make("tests/compat/all"):
-            return "the linker"
-        if self.run("ctest", "--test-dir", self.build / "tests/compat", "--stop-on-failure", "--timeout", CPU_SECONDS) != 0:
-            found = re.search(r"Test +#\d+: (\S+) .*(?:Failed|Exception|Timeout)", self.log.read_text(encoding="utf-8", errors="replace"))
+            return "the build of the tests"
+        if self.run("ctest", "--test-dir", self.build / "tests/compat", "--stop-on-failure") != 0:
+            found = re.search(r"Test +#\d+: (\S+) .*(?:Failed|Exception|Timeout)", self.said())
             return found.group(1) if found else "ctest"
         return None
 
@@ -133,8 +138,8 @@ def choose(root, seed):
     generator = random.Random(seed)
     for mutants in kinds.values():
         generator.shuffle(mutants)
-    for row in zip(*kinds.values()):
-        yield from row
+    for row in itertools.zip_longest(*kinds.values()):
+        yield from (mutant for mutant in row if mutant is not None)
 
 
 def main():
@@ -161,7 +166,8 @@ def main():
                     valid += 1
                     change = new.strip()
                     if change == ";":
-                        change = "without " + (arguments.root / path).read_text(encoding="utf-8").split("\n")[number].strip()
+                        lines = (arguments.root / path).read_text(encoding="utf-8").split("\n")
+                        change = "without " + lines[number].strip()
                     print("ok" if killer else "not ok", f"{valid} - {path}:{number + 1} {function}(): {change}:",
                           killer or "survives", flush=True)
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="small C and C++ projects that use the library in each documented way${full:+, and codict, also cross-compiled}"
-minutes=${full:+2}
-: "${minutes:=2}"
+minutes=2
 packages=("${build_packages[@]}" pkg-config)
 [ -z "$full" ] || packages+=("${tool_packages[@]}" "${arm_packages[@]}" make)
 
@@ -13,5 +12,5 @@ lane() {
     without=(-LE cross)
     build_preset release release -DLEXICAN_THIN_SWEEPS=ON || return
   fi
-  run_ctest package "$build/release/tests/package" "${without[@]}"
+  { flock 9 && run_ctest package "$build/release/tests/package" "${without[@]}"; } 9>"$build/host-codict.lock"
 }

@@ -17,7 +17,10 @@ lane() {
   check "a build without a warning passes" counts_of "0 0" build_that_prints "[1/1] Building warning.cpp.o"
   check "a build with a warning of the compiler fails" counts_of "1 0" build_that_prints "a.cpp:1:1: warning: unused variable"
   check "a build with a warning of CMake fails" counts_of "1 0" build_that_prints "CMake Deprecation Warning at a.cmake:1:"
+  check "a build with a warning of the assembler fails" counts_of "1 0" build_that_prints "a.s:1: Warning: ignored"
   check "a skipped case says what it needs" skips_with_suite
+  check "a skipped case without that is counted" skips_without_suite
+  check "a failed case is not skipped with the lane" counts_of "1 1" run_tap skipping_program
 }
 
 # Runs a function in a subshell, and checks the numbers of failed and passed cases.
@@ -32,7 +35,7 @@ counts_of() {  # "FAILED PASSED" COMMAND...
   test "$counted" = "$1"
 }
 
-# Of these files, only a_test.cpp is built.
+# Simulates a tree in which only a_test.cpp is built.
 built_of() {  # FILE...
   local files=("$@")
   sources() { printf '%s\n' "${files[@]}"; }
@@ -42,6 +45,7 @@ built_of() {  # FILE...
 
 build_that_prints() {  # LINE
   local line=$1 build=$results/runner-build
+  mkdir -p "$build/runner"
   cmake() { echo "$line"; }
   build_tree runner
 }
@@ -49,6 +53,16 @@ build_that_prints() {  # LINE
 skips_with_suite() {
   program() { echo '<TestCase name="a" testsuite="needs a bus" filename="a.cpp" line="1" skipped="true"/>'; }
   (count_unrun "a program" program) | grep -x '   SKIPPED 1 cases of a program: needs a bus'
+}
+
+skips_without_suite() {
+  program() { echo '<TestCase name="a case" filename="a.cpp" line="1" skipped="true"/>'; }
+  (count_unrun "a program" program) | grep -x '   SKIPPED 1 cases of a program: no suite says what "a case" needs'
+}
+
+skipping_program() {
+  printf 'ok a\nnot ok b\n1..2\n'
+  return 77
 }
 
 fails_empty_lane() {

@@ -8,7 +8,7 @@ lane() {
   local qemu=${LEXICAN_QEMU_ARM:-qemu-system-arm} version
   local source=demo/sabrelite
   build_tree sabrelite --toolchain "$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_CPU=cortex-a9 \
-    -DLEXICAN_PRECOMPILED=ON || return
+    || return
   pass
   version=$("$qemu" --version | grep -oE 'version [0-9]+' | cut -d' ' -f2)
   if [ "${version:-0}" -lt 11 ]; then

@@ -6,7 +6,7 @@ packages=("${build_packages[@]}" "${arm_packages[@]}")
 lane() {
   build_for bluepill cortex-m3
   build_for nucleo_f446re cortex-m4
-  build_for nucleo_g474re cortex-m4  # with the library of the other one
+  build_for nucleo_g474re cortex-m4  # shares the build tree of nucleo_f446re
   compile_memory flash_stm32f4 cortex-m4
   compile_memory flash_stm32g4 cortex-m4
   compile_memory flash_stm32h7 cortex-m7
@@ -25,5 +25,5 @@ compile_memory() {  # SOURCE CPU
 build_for() {  # BOARD CPU
   local source=demo/stm32
   build_tree "stm32-$2" --toolchain "$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_PRESET=slave -DLEXICAN_CPU="$2" \
-    -DLEXICAN_BOARD="$1" -DLEXICAN_PRECOMPILED=ON && pass
+    -DLEXICAN_BOARD="$1" && pass
 }

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-about="all doctest cases with complete sweeps, clang with address and undefined behaviour sanitizers"
+about="all doctest cases with complete sweeps, and the C programs, clang with address and undefined behaviour sanitizers"
 packages=("${build_packages[@]}" "${clang_packages[@]}")
 
 lane() {
-  local targets=(lexican_tests)
+  local targets=(lexican_tests lexican_model_tests lexican_controller_tests lexican_memory_tests tests/compat/all tests/cookbook/all)
   build_preset development sweeps || return
   run_doctest sweeps "$build/sweeps/tests/lexican_tests"
+  run_doctest "sweeps models" "$build/sweeps/tests/models/lexican_model_tests"
+  run_doctest "sweeps controllers" "$build/sweeps/tests/controllers/lexican_controller_tests"
+  run_doctest "sweeps memories" "$build/sweeps/tests/memories/lexican_memory_tests"
+  run_ctest sweeps-compat "$build/sweeps/tests/compat"
+  run_ctest sweeps-cookbook "$build/sweeps/tests/cookbook"
 }

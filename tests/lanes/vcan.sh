@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the demo node and master on a real SocketCAN bus: a Debian kernel in QEMU; also with can-utils and python-can"
 minutes=10
-packages=("${build_packages[@]}" "${tool_packages[@]}" qemu-system-x86=qemu-system-x86_64 can-utils=candump iproute2=ip busybox-static=busybox
+packages=("${build_packages[@]}" "${tool_packages[@]}" "${arm_packages[@]}" qemu-system-x86=qemu-system-x86_64 can-utils=candump iproute2=ip busybox-static=busybox
   cpio kmod=modprobe python3 python3-can=/usr/lib/python3/dist-packages/can/interface.py)
 optional=yes
 waiting=yes
@@ -22,7 +22,8 @@ lane() {
 
 # Builds as README describes, with the codict that a project for another machine has built.
 heater() {
-  host_codict && cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja -DLEXICAN_CODICT="$codict" &&
+  host_codict && cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja -DLEXICAN_CODICT="$codict" \
+    -DLEXICAN_WARNINGS_AS_ERRORS=ON &&
     cmake --build "$build/heater"
 }
 
@@ -31,8 +32,8 @@ driver_check() {  # PROGRAM
     -I "$root/drivers/can/socketcan") source objects=()
   for source in "$from"/driver_check*.c; do
     objects+=("$1-$(basename "$source").o")
-    gcc -std=c11 -O2 "${includes[@]}" -c "$source" -o "${objects[-1]}" || return
+    gcc -std=c11 -O2 -Wall -Wextra -Werror "${includes[@]}" -c "$source" -o "${objects[-1]}" || return
   done
-  g++ -std=c++17 -O2 "${includes[@]}" "$from/host/socketcan.cpp" "${objects[@]}" \
+  g++ -std=c++17 -O2 -Wall -Wextra -Werror "${includes[@]}" "$from/host/socketcan.cpp" "${objects[@]}" \
     "$build/release/drivers/liblexican_can_socketcan.a" "$build/release/src/liblexican.a" -o "$1"
 }

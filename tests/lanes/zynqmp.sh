@@ -6,7 +6,7 @@ packages=(cmake ninja-build=ninja gcc-aarch64-linux-gnu=aarch64-linux-gnu-gcc g+
 
 lane() {
   local source=tests/zynqmp
-  build_tree zynqmp -DCMAKE_BUILD_TYPE=Release -DLEXICAN_PRECOMPILED=ON \
+  build_tree zynqmp -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/aarch64-bare.cmake" || return
   run_on_machine lexican_zynqmp
   run_on_machine lexican_zynqmp_driver_check

@@ -76,7 +76,7 @@ DECORATION = re.compile(r"^\*|_of_a_library_with_the_same_co_cfg_values_\d+$")
 
 
 class Program:
-    """Of objects, of sources below a directory. Call graphs are beside the objects."""
+    """Functions and tables of objects, whose call graphs are beside them."""
 
     def __init__(self, objects, sources, tools):
         self.sources = sources
