@@ -334,12 +334,12 @@ kill -TERM $server
 wait $server
 verdict $? "SIGTERM ends the node with status 0" "status $?"
 
-# --- Half a minute at full load: all identifiers, lengths and kinds of frames, and many for the node. The node reports
-# the lateness of its heartbeats in ticks of its clock, counted from the boot-up message. The tolerance is for the seven
-# programs that share one processor.
+# --- Six seconds at full load, each of which takes several real ones: all identifiers, lengths and kinds of frames, and
+# many for the node. The node reports the lateness of its heartbeats in ticks of its clock, counted from the boot-up
+# message. The tolerance is for the seven programs that share one processor.
 
 flood() {  # ARGUMENT... of cangen
-  timeout 30 cangen vcan0 -g 0 -p 10 "$@" &
+  timeout 6 cangen vcan0 -g 0 -p 10 "$@" &
   floods="$floods $!"
 }
 
@@ -356,12 +356,12 @@ flood -I r -L r -e -R
 flood -I $rpdo -L r -D r
 flood -I $request -L r -D r
 for process in $floods; do wait "$process"; done
-reboot "30 s of cangen at full speed are survived" 8105
+reboot "6 s of cangen at full speed are survived" 8105
 sdo "the node answers afterwards" 4018100200000000 431810020CC10000
 kill -TERM $server
 wait $server
 lateness=$(sed -n 's/^ *\([0-9]*\) heartbeats, greatest lateness \([0-9]*\) us$/\1 \2/p' /tmp/end)
-[ "${lateness% *}" -ge 29 ] && [ "${lateness#* }" -le $latest_heartbeat ]
+[ "${lateness% *}" -ge 5 ] && [ "${lateness#* }" -le $latest_heartbeat ]
 verdict $? "no heartbeat was later than $latest_heartbeat ticks" "$(cat /tmp/end)"
 received=$(sed -n 's/.*node *\([0-9]*\) frames received.*/\1/p' /tmp/end)
 [ "${received:-0}" -ge 10000 ]
