@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="all doctest cases with complete sweeps, the C programs and the recipes, clang"
-minutes=3
+minutes=4
 packages=("${build_packages[@]}" python3 clang lld=ld.lld)
 
 lane() {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 about="all doctest cases without host functions on an emulated Cortex-M0 and big-endian CPU, a smoke test on all boards"
-minutes=4
+minutes=3
 . "$root/tests/lanes/boards.sh"
 packages=("${board_packages[@]}" "${powerpc_packages[@]}")
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the demo node and master on a real SocketCAN bus: a Debian kernel in QEMU; also with can-utils and python-can"
-minutes=10
+minutes=3
 packages=("${build_packages[@]}" "${tool_packages[@]}" "${arm_packages[@]}" qemu-system-x86=qemu-system-x86_64 can-utils=candump iproute2=ip busybox-static=busybox
   cpio kmod=modprobe python3 python3-can=/usr/lib/python3/dist-packages/can/interface.py)
 optional=yes
