@@ -34,6 +34,7 @@ await() {
 # Runs COMMAND with the name of the node's pseudo-terminal while the node serves: with_node COMMAND NODE-ARGUMENT...
 with_node() (
   log=$results/demo-serve.log
+  : >"$log"  # await must not see the lines of the previous node
   "$root/demo/run" --serve --pty "${@:2}" >"$log" 2>&1 &
   node=$!
   trap 'kill "$node"; wait "$node"; cat "$log"' EXIT
