@@ -18,6 +18,6 @@ with_compiler() {  # PACKAGE STANDARD
     return
   fi
   build_tree "compiler-$package-$2" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_STANDARD="$2" \
-    -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" || return
+    -DLEXICAN_THIN_SWEEPS=ON -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" || return
   run_doctest "$package-c++$2" "$build/compiler-$package-$2/tests/lexican_tests"
 }

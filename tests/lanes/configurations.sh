@@ -30,7 +30,8 @@ lane() {
 test_options=()
 
 configuration() {  # NAME FLAGS [PRESET]
+  local targets=(lexican_tests)
   build_tree "configuration-$1" -DCMAKE_BUILD_TYPE= -DLEXICAN_PRESET="${3:-full}" -DCMAKE_C_FLAGS="$2" \
-    -DCMAKE_CXX_FLAGS="$2" "${test_options[@]}" || return
+    -DCMAKE_CXX_FLAGS="$2" -DLEXICAN_THIN_SWEEPS=ON "${test_options[@]}" || return
   run_doctest "$1" "$build/configuration-$1/tests/lexican_tests"
 }
