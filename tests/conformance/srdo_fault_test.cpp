@@ -354,12 +354,14 @@ TEST_CASE("SRDO faults: all sequences of five events have the states of the mode
   constexpr unsigned events = static_cast<unsigned>(Event::count);
   constexpr unsigned all = events * events * events * events * events;
   unsigned wrong = 0;
+  SrdoTable table = receiver();
+  SrdoNode node(table);
+  Model model;
   for (unsigned sequence = 0; sequence < all; sequence += stride(97)) {
-    SrdoTable table = receiver();
-    SrdoNode node(table);
-    Model model;
-    node.rx("000#0101");
-    model.on(Event::start);
+    for (const Event event : {Event::preop, Event::start}) {
+      apply(node, event);
+      model.on(event);
+    }
     std::uint32_t since = 0;  // ms since the last plain frame of a valid pair
     for (unsigned rest = sequence, n = 0; n < 5; ++n, rest /= events) {
       const auto event = static_cast<Event>(rest % events);

@@ -130,7 +130,8 @@ void MemoryWatch::add(std::uint32_t key, const void* memory, std::size_t size, b
     return;
   }
   const auto* bytes = static_cast<const std::uint8_t*>(memory);
-  regions_.push_back({key, bytes, size, stream, std::vector<std::uint8_t>(bytes, bytes + size)});
+  regions_.push_back({key, bytes, size, stream, copies_.size()});
+  copies_.insert(copies_.end(), bytes, bytes + size);
 }
 
 namespace {
@@ -208,23 +209,30 @@ void MemoryWatch::add(CO_OBJ& entry) {
 }
 
 void MemoryWatch::release(std::uint32_t dev) {
-  const auto same = [=](const Region& region) { return CO_GET_DEV(region.key) == dev; };
-  regions_.erase(std::remove_if(regions_.begin(), regions_.end(), same), regions_.end());
+  Region* to = begin();
+  for (const Region *from = begin(), *last = end(); from != last; ++from) {
+    if (CO_GET_DEV(from->key) != dev) {
+      *to++ = *from;
+    }
+  }
+  regions_.resize(static_cast<std::size_t>(to - begin()));
 }
 
 void MemoryWatch::remember() {
-  for (Region& region : regions_) {
-    if (region.size > 0) {
-      std::memcpy(region.copy.data(), region.memory, region.size);
+  std::uint8_t* const copies = copies_.data();
+  for (const Region *region = begin(), *last = end(); region != last; ++region) {
+    if (region->size > 0) {
+      std::memcpy(copies + region->copy, region->memory, region->size);
     }
   }
 }
 
 std::vector<std::uint32_t> MemoryWatch::changed() const {
   std::vector<std::uint32_t> devs;
-  for (const Region& region : regions_) {
-    if (region.size > 0 && std::memcmp(region.copy.data(), region.memory, region.size) != 0) {
-      devs.push_back(CO_GET_DEV(region.key));
+  const std::uint8_t* const copies = copies_.data();
+  for (const Region *region = begin(), *last = end(); region != last; ++region) {
+    if (region->size > 0 && std::memcmp(copies + region->copy, region->memory, region->size) != 0) {
+      devs.push_back(CO_GET_DEV(region->key));
     }
   }
   return devs;
@@ -232,8 +240,8 @@ std::vector<std::uint32_t> MemoryWatch::changed() const {
 
 const MemoryWatch::Region* MemoryWatch::find(std::uint32_t dev) const {
   const auto same = [=](const Region& region) { return CO_GET_DEV(region.key) == dev; };
-  const auto found = std::find_if(regions_.begin(), regions_.end(), same);
-  return found == regions_.end() ? nullptr : &*found;
+  const auto* found = std::find_if(begin(), end(), same);
+  return found == end() ? nullptr : found;
 }
 
 bool MemoryWatch::is_stream(std::uint32_t dev) const {

@@ -38,10 +38,15 @@ class MemoryWatch {
     const std::uint8_t* memory;
     std::size_t size;
     bool stream;
-    std::vector<std::uint8_t> copy;
+    std::size_t copy;  // its place in copies_
   };
+  // Pointers, since every call of every test walks over the regions and iterators are slow without optimisation.
+  Region* begin() { return regions_.data(); }
+  const Region* begin() const { return regions_.data(); }
+  const Region* end() const { return regions_.data() + regions_.size(); }
   const Region* find(std::uint32_t dev) const;
   std::vector<Region> regions_;
+  std::vector<std::uint8_t> copies_;
 };
 
 }  // namespace test
