@@ -73,13 +73,13 @@ TEST_SUITE_BEGIN("memory, needs LEXICAN_CODICT, the path of a codict without san
                  doctest::skip(codict == nullptr));
 
 TEST_CASE("memory: a large XDD of parameters with words needs at most 8 times its size") {
-  SUBCASE("objects") { check_memory(Large::objects, 16 * megabyte, {}); }
-  SUBCASE("sub-objects") { check_memory(Large::described_sub_objects, 16 * megabyte, {}); }
+  SUBCASE("objects") { check_memory(Large::objects, 8 * megabyte, {}); }
+  SUBCASE("sub-objects") { check_memory(Large::described_sub_objects, 8 * megabyte, {}); }
 }
 
 // A sub-object needs 160 bytes of such a description, and 570 bytes of the model.
 TEST_CASE("memory: a large XDD of attributes needs at most 10 times its size, 13 times for gen") {
-  check_memory(Large::sub_objects, 8 * megabyte, {10, 10, 13});
+  check_memory(Large::sub_objects, 4 * megabyte, {10, 10, 13});
 }
 
 TEST_SUITE_END();

@@ -47,10 +47,9 @@ class Analysis {
   // Returns the transmission time of all frames of the first `end` streams that arrive within `time`.
   Nanoseconds interference(std::size_t end, Nanoseconds time) const {
     Nanoseconds sum = 0;
-    for (std::size_t n = 0; n < end; ++n) {
-      const Stream& stream = streams_[n];
-      if (stream.period != 0) {
-        sum += ceiling(time + stream.jitter, stream.period) * stream.transmission;
+    for (const Stream *stream = streams_.data(), *last = stream + end; stream != last; ++stream) {
+      if (stream->period != 0) {
+        sum += ceiling(time + stream->jitter, stream->period) * stream->transmission;
       }
     }
     return sum;
