@@ -9,9 +9,8 @@ done
 
 # Builds for one board after the other, then runs all boards at the same time.
 lane() {
-  local board arguments targets=(lexican-demo-master)
-  build_preset release || return  # in the build tree of the lane vcan
-  targets=(lexican-demo-bare-metal lexican-timer-test)
+  local board demo arguments targets=(lexican-demo-bare-metal lexican-timer-test)
+  host_demo || return
   for board in "${boards[@]}"; do
     mapfile -t arguments < <(toolchain "$board")
     build_tree "bare-metal-$board" -DCMAKE_BUILD_TYPE=MinSizeRel -DLEXICAN_PRESET=slave -DLEXICAN_TESTS=OFF \
@@ -53,7 +52,7 @@ verdict() {  # WHAT LOG
 
 master_at() {  # BOARD ARGUMENT...
   with_board "$1" "$build/bare-metal-$1/demo/bare_metal/lexican-demo-bare-metal" \
-    "$build/release/demo/linux_master/lexican-demo-master" "${@:2}"
+    "$demo/linux_master/lexican-demo-master" "${@:2}"
 }
 
 # Reports a case for each step of the tour: count_steps BOARD LOG
@@ -87,7 +86,7 @@ served() (  # BOARD
   trap 'kill "$emulator"; wait "$emulator"; rm -r "$place"' EXIT
   await_socket "$place/can" "$emulator"
   at_board() {
-    "$build/release/demo/linux_master/lexican-demo-master" --slcan "$place/can" --node 1 --timeout 600000 "$@"
+    "$demo/linux_master/lexican-demo-master" --slcan "$place/can" --node 1 --timeout 600000 "$@"
   }
   [ "$(at_board --index 1009 read)" = "$1" ] && at_board nmt start && [ "$(at_board --index 1008 read)" = "Lexican demo clock" ]
 )

@@ -108,6 +108,14 @@ host_codict() {
   fi
 }
 
+# Builds the demo as its users do, once for all lanes, and sets $demo to the directory of its programs.
+host_demo() {
+  local log=$results/$lane_name-demo.log
+  demo=$build/demo/demo
+  now "building the demo"
+  "$root/demo/run" --virtual >"$log" 2>&1 || { fail "demo/run --virtual" "$log"; return 1; }
+}
+
 # Runs a doctest program and counts its cases: run_doctest WHAT COMMAND... Two processes run at the same time, one with
 # the cases of SDO, one with all others, about half of the work each. All cases that the program lists must have run.
 run_doctest() {

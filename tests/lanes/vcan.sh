@@ -8,16 +8,15 @@ waiting=yes
 
 lane() {
   local check=$results/driver_check_socketcan
-  local codict targets=(lexican-demo-node lexican-demo-master lexican_bus_tests)
-  build_preset release || return
+  local codict demo targets=(lexican_bus_tests)
+  host_demo && build_preset release || return
   driver_check "$check" >"$results/driver_check_socketcan.log" 2>&1 || {
     fail "build of the driver check" "$results/driver_check_socketcan.log"
     return
   }
   heater >"$results/heater.log" 2>&1 || { fail "build of demo/heater" "$results/heater.log"; return; }
-  run_tap "$root/tests/system/vcan/run" "$build/release/demo/linux_node/lexican-demo-node" \
-    "$build/release/demo/linux_master/lexican-demo-master" "$build/release/tests/lexican_bus_tests" "$check" \
-    "$build/heater/heater"
+  run_tap "$root/tests/system/vcan/run" "$demo/linux_node/lexican-demo-node" "$demo/linux_master/lexican-demo-master" \
+    "$build/release/tests/lexican_bus_tests" "$check" "$build/heater/heater"
 }
 
 # Builds as README describes, with the codict that a project for another machine has built.
