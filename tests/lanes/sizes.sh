@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-about="flash and RAM of nodes, modules, settings and each additional object, stack depth of functions; compared with docs/sizes.md"
+about="flash and RAM of nodes, modules and each additional object, stack depth of functions; compared with docs/sizes.md"
 . "$root/tests/lanes/library.sh"
-minutes=3
+minutes=2
 packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}" gcc-riscv64-unknown-elf=riscv64-unknown-elf-g++
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/lib/libc.a)
 
 presets=(minimal slave full)
-switches=(USE_CALLBACKS=0 USE_DICT_CHECK=0 USE_FAST_PATHS=0 USE_CSDO=0 USE_SDO_BLOCK=0 USE_CSDO_BLOCK=0 USE_CSDO_OWN=0 CO_RPDO_N=0 CO_TPDO_N=0 USE_PDO_BITS=1 USE_PDO_RTR=0 USE_MPDO=1 USE_OD=1
-  USE_SYNC=0 USE_TIME=1 USE_GFC=1 CO_SRDO_N=1 USE_EMCY=0 USE_EMCY_QUEUE=0 CO_EMCY_CONS_N=1 CO_HBCONS_N=0 USE_GUARDING=0 USE_NMT_MASTER=1 USE_LED=1 USE_LSS=0 USE_LSS_MASTER=1 USE_PARA=0
-  USE_RECORDER=1 USE_REAL_TIME=1)
 of=$results/sizes
 
 lane() {
@@ -21,12 +18,11 @@ lane() {
       size_of_node $cpu "$preset" || return
     done
   done
-  build_configurations && size_of_switches && size_of_memory && size_of_things || return
+  size_of_memory && size_of_things || return
   report_nodes
   report_modules
   report_memory
   report_things
-  report_switches
   self_test
   stack_depths
 }
@@ -46,13 +42,6 @@ choose_cpu() {  # CPU
   configure=(-DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/$toolchain.cmake" -DLEXICAN_CPU=$core)
   compile+=(-Os -ffunction-sections -fdata-sections)
   lto=(-flto -ffat-lto-objects)
-}
-
-# Builds the libraries that are linked without link-time optimisation, for the switches and the stack depth.
-build_configurations() {
-  local targets=(lexican_full "${switches[@]/#/lexican_}")
-  targets=("${targets[@]/=/_}")
-  build_m0plus -DLEXICAN_SIZES=ON -DLEXICAN_SWITCHES="$(IFS=';'; echo "${switches[*]}")"
 }
 
 compile_c() {  # SOURCE OUTPUT FLAG...
@@ -113,28 +102,6 @@ bytes_of() {  # OBJECT-OR-PROGRAM
   local reserved
   reserved=$("$tools-size" -A "$1" | awk '$1 == ".stack" { print $2 }')
   "$tools-size" "$1" | awk -v reserved="${reserved:-0}" 'NR == 2 { print $1 + $2, $2 + $3 - reserved }'
-}
-
-# Prints the difference in size of each switch's other value to presets/slave.h, with all functions kept.
-size_of_switches() {
-  local switch before after
-  rm -f "$of-switches-flash" "$of-switches-ram"
-  before=($(size_with sizes-m0plus/lexican_slave)) || return
-  for switch in "${switches[@]}"; do
-    after=($(size_with "m0plus/lexican_${switch/=/_}" -D"$switch")) || return
-    printf '%s %s\t%d\n' "${switch%=*}" "${switch#*=}" $((after[0] - before[0])) >>"$of-switches-flash"
-    printf '%s %s\t%d\n' "${switch%=*}" "${switch#*=}" $((after[1] - before[1])) >>"$of-switches-ram"
-  done
-}
-
-size_with() {  # TREE/LIBRARY FLAG...: prints the bytes of flash and of RAM
-  local program=$build/$1-node
-  compile_c memory.c "$program.o" -DMAIN "${@:2}" >"$of.log" 2>&1 &&
-    link_node "$1" "$program" yes -fno-lto ||
-    { fail "link with $1" "$of.log" >&2; return 1; }
-  local linked alone
-  linked=($(bytes_of "$program")) alone=($(bytes_of "$program.o"))
-  echo "${linked[0]} ${alone[1]}"
 }
 
 size_of_memory() {
@@ -231,14 +198,10 @@ report_things() {
   report things "one more" --column "flash" "$arm" "$of-things-flash" --column "RAM" "$arm" "$of-things-ram"
 }
 
-report_switches() {
-  report switches "switch" --percent 1 --slack 32 \
-    --column "flash" "$arm" "$of-switches-flash" --column "RAM" "$arm" "$of-switches-ram"
-}
-
 # Evaluates the functions of the C run time, too, which a program with the whole library contains.
 stack_depths() {
-  local of=$results/stack objects
+  local of=$results/stack objects targets=(lexican_full)
+  build_m0plus -DLEXICAN_SIZES=ON || return
   mapfile -t objects < <(objects_of m0plus/lexican_full)
   "${compile[@]}" "${objects[@]}" -nostartfiles "${specs[@]}" -Wl,-e,CONodeProcess -o "$of.elf" >"$of.log" 2>&1 ||
     { fail "link of the library" "$of.log"; return 1; }
