@@ -108,12 +108,13 @@ host_codict() {
   fi
 }
 
-# Builds the demo as its users do, once for all lanes, and sets $demo to the directory of its programs.
+# Builds the demo as its users do, once for all lanes, and sets $demo to the directory of its programs. A warning is a
+# failure here.
 host_demo() {
   local log=$results/$lane_name-demo.log
   demo=$build/demo/demo
   now "building the demo"
-  "$root/demo/run" --virtual >"$log" 2>&1 || { fail "demo/run --virtual" "$log"; return 1; }
+  CFLAGS=-Werror CXXFLAGS=-Werror "$root/demo/run" --virtual >"$log" 2>&1 || { fail "demo/run --virtual" "$log"; return 1; }
 }
 
 # Runs a doctest program and counts its cases: run_doctest WHAT COMMAND... Two processes run at the same time, one with

@@ -4,6 +4,7 @@ minutes=2
 packages=(g++ cmake ninja-build=ninja libcli11-dev=/usr/include/CLI/CLI.hpp python3 chromium)
 
 lane() {
+  export CFLAGS=-Werror CXXFLAGS=-Werror
   now_in "$build/demo/build.log"
   check "demo/run --virtual" shows "steps in .* all as expected" --virtual
   check "demo/run thermometer" shows "TPDO1 temperature in 0.1 degrees Celsius = 1010" thermometer

@@ -40,7 +40,7 @@ choose_cpu() {  # CPU
     *) compile=($tools-gcc -mcpu=$core -mthumb) specs=(--specs=nano.specs --specs=nosys.specs) ;;
   esac
   configure=(-DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/$toolchain.cmake" -DLEXICAN_CPU=$core)
-  compile+=(-Os -ffunction-sections -fdata-sections)
+  compile+=(-Os -ffunction-sections -fdata-sections -Wall -Werror)
   lto=(-flto -ffat-lto-objects)
 }
 
