@@ -71,6 +71,36 @@ TEST_CASE("PDO callback: COPdoTransmit may change an object of the PDO (flag A) 
   CHECK(node.frames().size() <= 12);
 }
 
+TEST_CASE("PDO callback: a TPDO that COPdoTransmit marks may change the NMT state [Q9]") {
+  enum class By : std::uint8_t { set_mode, error_behaviour, stop };
+  for (const By by : {By::set_mode, By::error_behaviour, By::stop}) {
+    SyncTable table;
+    table.tpdo[0].on(0x40000181, 255, {0x22110108});
+    table.tpdo[1].on(0x40000281, 255, {0x22110208});
+    SyncNode node(table);
+    node.start();
+    callbacks().pdo_transmit = [&](CO_IF_FRM* frm) {
+      CO_NODE* const own = &node.node;
+      if (CO_GET_ID(frm) == 0x181) {
+        CODictWrByte(&own->Dict, CO_DEV(0x2211, 2), 0x55);
+      } else if (by == By::set_mode) {
+        CONmtSetMode(&own->Nmt, CO_PREOP);
+      } else if (by == By::error_behaviour) {
+        COErrorBehaviour(own, 1);
+      } else {
+        CONodeStop(own);
+      }
+    };
+    node.call([&] { CODictWrByte(&node.node.Dict, CO_DEV(0x2211, 1), 0x44); });
+    CHECK(node.mode() == (by == By::stop ? CO_INVALID : CO_PREOP));
+    node.tx("181#44");
+    callbacks().pdo_transmit = nullptr;
+    node.rx("000#0101");
+    node.after(1s);  // what was marked before is not sent any more
+    node.silent();
+  }
+}
+
 TEST_CASE("PDO callback: if COPdoTransmit leaves Operational neither this PDO nor another one is sent [Q9] [N3]") {
   for (const std::string& what : commands) {
     CAPTURE(what);

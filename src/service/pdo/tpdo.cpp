@@ -409,13 +409,14 @@ CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
 }
 
 // Changes by Read functions and callbacks of the PDOs are sent in a second round; changes in that round wait for the
-// next event.
+// next event. A callback that changes the NMT state calls this function again: before each round nothing is deferred.
 CO_ERR send_marked(CO_NODE& node) {
   CO_ASSERT(node.OdLocked == 0 && node.TPdoMarked < node.TPdoMarkedEnd && node.TPdoMarkedEnd <= CO_TPDO_N);
   const event::Serving serving(node);
   event::remove(node, event::send_tpdos);
   const CO_ERR err = trigger_marked(node);
   if (node.TPdoMarkedEnd != 0) {
+    event::remove(node, event::send_tpdos);
     (void)trigger_marked(node);
     event::remove(node, event::send_tpdos);
   }
