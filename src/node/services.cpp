@@ -9,6 +9,7 @@
 #include "base/routes.hpp"
 #include "base/transmit.hpp"
 #include "co_assert.h"
+#include "dictionary/lock.hpp"
 #include "hal/port.hpp"
 #include "service/emcy/emcy.hpp"
 #include "service/gfc/gfc.hpp"
@@ -223,13 +224,21 @@ void send_emcy(CO_NODE& node) { emcy::send_queued(node); }
 
 void configure(CO_NODE& node) { run<&Service::configure>(node); }
 
+// While the objects of PDOs are found again, TPDOs that a type function requests are marked, as their objects may not
+// have been found yet.
 void remap(CO_NODE* node) {
-  pdo::remap(*node);
 #if CO_SRDO_N > 0
-  srdo::on_remap(*node);
+  srdo::halt(*node);
 #endif
 #if USE_RECORDER
   recorder::on_remap(*node);
+#endif
+  {
+    const dict::Lock lock(*node);
+    pdo::remap(*node);
+  }
+#if CO_SRDO_N > 0
+  srdo::report_halted(*node);
 #endif
 }
 

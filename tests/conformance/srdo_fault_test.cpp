@@ -246,6 +246,32 @@ TEST_CASE("SRDO faults: a dictionary that is replaced in Operational ends the SR
   node.trace();
 }
 
+TEST_CASE("SRDO faults: all SRDOs have ended before a callback reports that the dictionary was replaced [SR14]") {
+  SrdoTable table;
+  table.srdo[0].send(0x109, pair_of_3);
+  table.srdo[1].send(0x10B, pair_of_3);
+  SrdoNode node(table);
+  node.start();
+  node.after(60ms);
+  node.trace();
+  REQUIRE(node.state(0) == CO_SRDO_ESTABLISHED);
+  REQUIRE(node.state(1) == CO_SRDO_ESTABLISHED);
+  std::vector<std::pair<unsigned, CO_ERR>> results;
+  callbacks().srdo_change = [&](CO_NODE* of, std::uint8_t number, CO_SRDO_STATE to) {
+    CHECK(to == CO_SRDO_ERR_INTERNAL);
+    for (std::uint8_t each = 0; each < 2; ++each) {
+      CHECK(COSrdoGetState(of, each) == CO_SRDO_ERR_INTERNAL);
+      results.emplace_back(number, COSrdoRequest(of, each));
+    }
+  };
+  const auto length = static_cast<std::uint16_t>(node.node.Dict.Num - 60U);  // without the mapped objects
+  node.call([&] { CODictInit(&node.node.Dict, &node.node, node.node.Dict.Root, length); });
+  const std::vector<std::pair<unsigned, CO_ERR>> expected = {
+      {0, CO_ERR_OBJ_STATE}, {0, CO_ERR_OBJ_STATE}, {1, CO_ERR_OBJ_STATE}, {1, CO_ERR_OBJ_STATE}};
+  CHECK(results == expected);
+  node.tx({"081#008211000001130B", "081#008211000002130B"});
+}
+
 TEST_CASE("SRDO faults: the callback may leave Operational and then no EMCY is sent [SR14]") {
   Established node;
   callbacks().srdo_change = [&](CO_NODE* of, std::uint8_t, CO_SRDO_STATE to) {

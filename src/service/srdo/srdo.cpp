@@ -26,6 +26,7 @@ enum Flag : uint8_t {
   failed = 0x08,     // Fault::srdo is raised
   refused = 0x10,    // Fault::srdo_configuration is raised
   routed = 0x20,     // consumer: the routes of its identifiers exist
+  halted = 0x40,     // ended by halt(), which the callback does not know yet
 };
 
 bool has(const CO_SRDO& srdo, unsigned flags) { return (srdo.Flags & flags) != 0; }
@@ -327,7 +328,7 @@ void end(CO_SRDO& srdo) {
   if (has(srdo, refused)) {
     event::resolve(*srdo.Node, Fault::srdo_configuration, index);
   }
-  clear(srdo, failed | refused);
+  clear(srdo, failed | refused | halted);
   if (srdo.State != CO_SRDO_DELETED) {
     change_state(srdo, CO_SRDO_NOT_OPERATIONAL);
   }
@@ -377,9 +378,21 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   return true;
 }
 
-void on_remap(CO_NODE& node) {
+void halt(CO_NODE& node) {
   for (CO_SRDO& srdo : node.Srdo) {
     if (is_running(srdo)) {
+      stop(srdo);
+      set(srdo, halted);
+      srdo.State = CO_SRDO_ERR_INTERNAL;
+    }
+  }
+}
+
+void report_halted(CO_NODE& node) {
+  for (CO_SRDO& srdo : node.Srdo) {
+    if (has(srdo, halted)) {
+      clear(srdo, halted);
+      srdo.State = CO_SRDO_ESTABLISHED;  // the callback is called for changes only
       fail(srdo, CO_SRDO_ERR_INTERNAL);
     }
   }

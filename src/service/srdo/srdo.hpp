@@ -17,8 +17,10 @@ void on_mode(CO_NODE& node);
 // Processes a frame. number: twice the number of the SRDO, plus 1 for the inverse frame
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
-// Ends the running SRDOs with CO_SRDO_ERR_INTERNAL after CODictInit() has replaced the dictionary, which was checked.
-void on_remap(CO_NODE& node);
+// End the running SRDOs with CO_SRDO_ERR_INTERNAL after CODictInit() has replaced the dictionary, which was checked:
+// halt() before any function of the application may run, report_halted() with the callbacks.
+void halt(CO_NODE& node);
+void report_halted(CO_NODE& node);
 
 }  // namespace co::srdo
 
