@@ -3,6 +3,7 @@
 /// Helpers for tests of the OD access interface (co_od.h).
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "co_od.h"
@@ -46,7 +47,7 @@ inline ReadResult read(OD_IO_t& io, OD_size_t count) {
     given = 0;
   }
   REQUIRE(given <= count);
-  CHECK(Bytes(buffer.begin() + count, buffer.end()) == Bytes(4, 0xEE));
+  CHECK(Bytes(buffer.begin() + static_cast<std::ptrdiff_t>(count), buffer.end()) == Bytes(4, 0xEE));
   buffer.resize(given);
   return {result, buffer};
 }

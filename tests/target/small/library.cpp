@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Functions of the C++ library that the headers of libstdc++ need in these tests: memory allocation, the trees of
-// std::map and std::set, and functions that end the program instead of throwing an exception.
+// std::map and std::set, and functions that end the program instead of throwing an exception. Also what ends the
+// program when an invariant of the stack is violated.
+#include <co_assert.h>
+
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +24,12 @@ namespace {
 }
 
 }  // namespace
+
+void COAssertFailed(const char* condition, const char* file, int) {
+  board::print(file);
+  board::print(": an invariant of the stack is violated: ");
+  give_up(condition);
+}
 
 void* operator new(std::size_t size) {
   void* const memory = std::malloc(size == 0 ? 1 : size);
