@@ -79,7 +79,7 @@ TEST_CASE("memory: a large XDD of parameters with words needs at most 8 times it
 
 // A sub-object needs 160 bytes of such a description, and 570 bytes of the model.
 TEST_CASE("memory: a large XDD of attributes needs at most 10 times its size, 13 times for gen") {
-  check_memory(Large::sub_objects, 4 * megabyte, {10, 10, 13});
+  check_memory(Large::sub_objects, 8 * megabyte, {10, 10, 13});
 }
 
 TEST_SUITE_END();
