@@ -299,7 +299,7 @@ void OD_rwRestart(OD_stream_t* stream) CO_NEEDS(USE_OD);
 /// (CO_OBJ_TYPE_EX without Reset) and a value of more than 8 bytes can be transferred in a single call only. Begin and
 /// End are not called. The Write function of a type receives copies of up to 32 bytes, one after the other: if it
 /// refuses one, the previous ones stay written.
-/// \retval ODR_DEV_INCOMPAT    an argument is null, or dataOffset is behind the end
+/// \retval ODR_DEV_INCOMPAT    an argument is null, dataOffset is behind the end, or a write before CONodeInit()
 /// \retval ODR_SUB_NOT_EXIST   the variable has no memory
 /// \retval ODR_DATA_LONG       there are more bytes than the variable can hold; nothing of this call is written
 /// \retval ODR_DATA_DEV_STATE  the stream is open in an SDO transfer

@@ -16,14 +16,18 @@ void COIfInit(CO_IF* cif, CO_NODE* node, uint32_t freq) {
   ASSERT_PTR_FATAL(node);
   cif->Node = node;
   node->Tmr.Freq = freq;
-  port::init(*node);
+  if (port::is_initialised(*node)) {
+    port::init(*node);
+  }
 }
 
 void COIfCanInit(CO_IF* cif, CO_NODE* node) {
   ASSERT_PTR_FATAL(cif);
   ASSERT_PTR_FATAL(node);
   cif->Node = node;
-  port::can_init(*node);
+  if (port::is_initialised(*node)) {
+    port::can_init(*node);
+  }
 }
 
 void COIfCanEnable(CO_IF* cif, uint32_t baud) {

@@ -2,6 +2,7 @@
 #include "dictionary/obj.hpp"
 
 #include "base/events.hpp"
+#include "hal/port.hpp"
 
 namespace co::obj {
 
@@ -27,9 +28,10 @@ using namespace co;
 
 namespace {
 
-// Returns whether an API function can access the object: it has a type, and no argument is null.
+// Returns whether an API function can access the object: it has a type, no argument is null, and CONodeInit() was
+// called.
 bool is_accessible(const CO_OBJ* obj, const CO_NODE_T* node) {
-  return obj != nullptr && obj->Type != nullptr && node != nullptr;
+  return obj != nullptr && obj->Type != nullptr && node != nullptr && port::is_initialised(*node);
 }
 
 }  // namespace

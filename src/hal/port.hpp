@@ -10,6 +10,10 @@ namespace co::port {
 // Extension of a node that was initialised without one, or whose extension cannot be used.
 extern const CO_NODE_EXT no_extension;
 
+// Returns whether CONodeInit() was called: otherwise the node has neither an extension nor drivers, and functions of the
+// API have no effect.
+[[nodiscard]] inline bool is_initialised(const CO_NODE& node) { return node.Ext != nullptr; }
+
 // Gives the node drivers that do nothing: it could not be initialised, and API calls of the application have no effect.
 void remove_drivers(CO_NODE& node);
 
@@ -21,7 +25,7 @@ inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlo
 // Returns whether the node has a real-time thread.
 [[nodiscard]] inline bool has_mainline([[maybe_unused]] const CO_NODE& node) {
 #if USE_REAL_TIME
-  return node.Ext != nullptr && node.Ext->Mainline != nullptr;
+  return is_initialised(node) && node.Ext->Mainline != nullptr;
 #else
   return false;
 #endif
@@ -30,7 +34,7 @@ inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlo
 // Node lock (CO_NODE_EXT.Enter and Leave). NodeLock holds it for a scope. Scopes must not nest.
 #if USE_REAL_TIME
 inline void enter(CO_NODE& node) {
-  if (node.Ext != nullptr && node.Ext->Enter != nullptr) {
+  if (is_initialised(node) && node.Ext->Enter != nullptr) {
     node.Ext->Enter(node.Ext->User);
     node.IsNodeLocked = 1;
   }

@@ -325,7 +325,7 @@ bool receive(CO_NODE& node, CO_IF_FRM& frame) {
 // error that has stopped the node is kept: errors of the driver are not reported. A node that was never initialised has
 // no drivers.
 void drop_received(CO_NODE& node) {
-  if (node.Ext == nullptr || node.State != 0) {
+  if (!port::is_initialised(node) || node.State != 0) {
     return;
   }
   CO_IF_FRM frame = wire::empty_frame();
@@ -537,6 +537,9 @@ void CONodeRealTime(CO_NODE* node) {
 uint32_t CONodeNextDeadline(CO_NODE* node) {
   ASSERT_PTR_FATAL_ERR(node, UINT32_MAX);
   const port::NodeLock turn(*node);
+  if (!port::is_initialised(*node)) {
+    return UINT32_MAX;
+  }
   if (node::is_awaited(*node)) {
     return 0;
   }
@@ -553,7 +556,7 @@ uint32_t CONodeNextDeadline(CO_NODE* node) {
 
 void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event) {
   ASSERT_PTR_FATAL(node);
-  if (event < CO_CAN_EVENT_NUM) {
+  if (event < CO_CAN_EVENT_NUM && port::is_initialised(*node)) {
     node::report(*node, event);
     event::run_deferred(*node);
   }

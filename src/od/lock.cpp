@@ -47,11 +47,17 @@ extern "C" {
 
 void OD_lock(CO_NODE_T* node) {
   ASSERT_PTR_FATAL(node);
+  if (!port::is_initialised(*node)) {
+    return;
+  }
   od::has_node_lock(*node) ? port::enter(*node) : od::lock_objects(*node);
 }
 
 void OD_unlock(CO_NODE_T* node) {
   ASSERT_PTR_FATAL(node);
+  if (!port::is_initialised(*node)) {
+    return;
+  }
   od::has_node_lock(*node) ? od::release_node_lock(*node) : od::unlock_objects(*node);
 }
 

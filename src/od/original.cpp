@@ -6,6 +6,7 @@
 #include "dictionary/access.hpp"
 #include "dictionary/types/place.hpp"
 #include "dictionary/types/stream.hpp"
+#include "hal/port.hpp"
 #include "od/kind.hpp"
 #include "od/result.hpp"
 #include "od/types.hpp"
@@ -376,6 +377,9 @@ ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD
     return write_memory(*stream, from, count, *countWritten);
   }
   CO_NODE& node = *stream->Owner;
+  if (!co::port::is_initialised(node)) {
+    return ODR_DEV_INCOMPAT;
+  }
   const ODR_t result = write_object(*stream, from, count, *countWritten);
   if (node.Ext->Od == nullptr || node.Ext->Od->Writing == nullptr) {
     co::event::run_deferred(node);

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/events.hpp"
+#include "hal/port.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/list.hpp"
 #include "service/pdo/multiplex.hpp"
@@ -45,7 +46,7 @@ void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj) {
 CO_ERR COTPdoRequest(CO_NODE* node, uint16_t num) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
   CO_ERR err = CO_ERR_TPDO_NUM_TRIGGER;
-  if (is_pdo(num, CO_TPDO_N)) {
+  if (is_pdo(num, CO_TPDO_N) && port::is_initialised(*node)) {
     mpdo::mark_all(pdo::tpdos(*node).first[num]);
     err = pdo::request(*node, num);
   }

@@ -164,8 +164,8 @@ void start_producer(CO_SRDO& srdo) {
   start(srdo, first);
 }
 
-CO_ERR request(CO_SRDO& srdo) {
-  if (!is_operational(*srdo.Node)) {
+CO_ERR request(CO_NODE& node, CO_SRDO& srdo) {
+  if (!is_operational(node)) {
     return CO_ERR_NMT_MODE;
   }
   if (!is_running(srdo) || srdo.Direction != CO_SRDO_TX || has(srdo, served)) {
@@ -175,7 +175,7 @@ CO_ERR request(CO_SRDO& srdo) {
     set(srdo, requested);
     return CO_ERR_NONE;
   }
-  srdo.Tick = tmr::now(srdo.Node->Tmr);
+  srdo.Tick = tmr::now(node.Tmr);
   produce(srdo);
   return is_running(srdo) ? CO_ERR_NONE : CO_ERR_OBJ_READ;
 }
@@ -429,7 +429,7 @@ CO_ERR COSrdoRequest(CO_NODE* node, uint8_t number) {
   if (number >= CO_SRDO_N) {
     return CO_ERR_BAD_ARG;
   }
-  const CO_ERR err = srdo::request(node->Srdo[number]);
+  const CO_ERR err = srdo::request(*node, node->Srdo[number]);
   event::run_deferred(*node);
   return err;
 }
