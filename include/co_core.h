@@ -210,7 +210,8 @@ typedef struct CO_NODE_T {
   CO_LSSM Lssm;  ///< LSS master, handle for co_lss_master.h
 #endif
 #if USE_PARA
-  CO_TMR_MEM ParaTmr;  ///< checks the groups that are stored autonomously
+  CO_TMR_MEM ParaTmr;      ///< checks the groups that are stored autonomously
+  uint8_t ParaNewest[32];  ///< slot of each group with its newest record, 2 bits each: 0 not known, 1, 2
 #if CO_PARA_BUDGET > 0
   uint8_t StoresUsed;    ///< stores used of CO_PARA_BUDGET
   uint8_t StoreCause;    ///< source of the write in progress: whether the budget counts it

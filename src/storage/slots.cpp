@@ -194,6 +194,26 @@ bool is_newest_damaged(const Slots& slots) {
   return slots.other.found == Found::lost && slots.newest.header.generation - slots.other.header.generation != 1;
 }
 
+// The slot that held the newest record of a group when it was loaded or saved last (CO_NODE.ParaNewest): it is not
+// erased, even if the memory cannot be read meanwhile.
+constexpr unsigned groups_in_byte = 4;
+constexpr unsigned slot_bits = 2;
+
+void remember(CO_NODE& node, const Record& record, const Slot& slot) {
+  CO_ASSERT(record.group / groups_in_byte < sizeof node.ParaNewest);
+  const unsigned shift = record.group % groups_in_byte * slot_bits;
+  const unsigned number = slot.start == record.start ? 1 : 2;
+  uint8_t& byte = node.ParaNewest[record.group / groups_in_byte];
+  byte = static_cast<uint8_t>((byte & ~(3U << shift)) | (is_whole(slot) ? number << shift : 0));
+}
+
+// Returns whether a slot is the one that was remembered, and cannot be read any more.
+bool is_hidden(const CO_NODE& node, const Record& record, const Slot& slot) {
+  const unsigned shift = record.group % groups_in_byte * slot_bits;
+  const unsigned number = slot.start == record.start ? 1 : 2;
+  return !is_whole(slot) && (node.ParaNewest[record.group / groups_in_byte] >> shift & 3U) == number;
+}
+
 // Copies the first size bytes to the memory of the application, with the node lock held, and checks the CRC of all
 // data. Returns false if they cannot be read or are invalid.
 bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to, uint32_t size) {
@@ -284,21 +304,27 @@ bool write_slot(const CO_NODE& node, const Record& record, Slot& slot, const uin
 
 // Writes the slot that does not hold the newest valid record. data: null for the defaults. The generation is one higher
 // than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both.
-CO_ERR write_record(const CO_NODE& node, const Record& record, const Slots& slots, const uint8_t* data) {
+CO_ERR write_record(CO_NODE& node, const Record& record, const Slots& slots, const uint8_t* data) {
   const bool has_record = is_whole(slots.newest);
   const Slot& target = has_record ? slots.other : slots.newest;
   const uint32_t generation = (has_record ? slots.newest : slots.other).header.generation + 1;
-  Slot slot = {target.start, {magic, record.version, data == nullptr ? defaults : record.size, generation, 0}, {}};
+  Slot slot = {
+      target.start, {magic, record.version, data == nullptr ? defaults : record.size, generation, 0}, Found::lost};
   Header stored = {};
-  const bool written = write_slot(node, record, slot, data);
-  const bool whole = written && read_slot(node, record, slot.start, stored) != Found::lost;
-  return whole && stored.crc == slot.header.crc && stored.generation == generation ? CO_ERR_NONE : CO_ERR_IF_NVM_WRITE;
+  if (write_slot(node, record, slot, data)) {
+    slot.found = read_slot(node, record, slot.start, stored);
+  }
+  if (!is_whole(slot) || stored.crc != slot.header.crc || stored.generation != generation) {
+    return CO_ERR_IF_NVM_WRITE;
+  }
+  remember(node, record, slot);
+  return CO_ERR_NONE;
 }
 
 // Rewrites a record of version 0.1.0 in both slots: its CRC does not cover the identity, so that it could be mistaken
 // for the record of another group. Power may fail meanwhile: one slot with the values always exists, and the next load
 // continues.
-void rewrite_old_record(const CO_NODE& node, const Record& record, Slots& slots, const uint8_t* data) {
+void rewrite_old_record(CO_NODE& node, const Record& record, Slots& slots, const uint8_t* data) {
   constexpr unsigned both = 2;
   for (unsigned n = 0; n < both && (is_old(slots.newest) || is_old(slots.other)); ++n) {
     (void)write_record(node, record, slots, data);
@@ -341,6 +367,7 @@ Found find(const CO_NODE& node, const Record& record) {
 Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
   CO_ASSERT(fits(node, record) && size <= record.size);
   Slots slots(node, record);
+  remember(node, record, slots.newest);
   if (load_slot(node, record, slots.newest, to, size)) {
     const Loaded loaded = {slots.newest.found, is_newest_damaged(slots)};
     if (size == record.size) {
@@ -349,6 +376,7 @@ Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
     return loaded;
   }
   if (load_slot(node, record, slots.other, to, size)) {
+    remember(node, record, slots.other);
     return {slots.other.found, true};
   }
   return {slots.newest.found == Found::blank && slots.other.found == Found::blank ? Found::blank : Found::lost, false};
@@ -359,6 +387,9 @@ CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
   const Slots slots(node, record);
   if (is_stored(node, record, slots.newest, data)) {
     return CO_ERR_NONE;
+  }
+  if (is_hidden(node, record, slots.newest) || is_hidden(node, record, slots.other)) {
+    return CO_ERR_IF_NVM_WRITE;
   }
   return budget::take_store(node) ? write_record(node, record, slots, data) : CO_ERR_OBJ_STATE;
 }

@@ -19,7 +19,8 @@ namespace co::slots {
 [[nodiscard]] store::Loaded load(CO_NODE& node, const store::Record& record, uint8_t* to, uint32_t size);
 
 // Stores data, unless they are stored already, and reads them back: CO_ERR_NONE means that they were found in the
-// memory. data: null to store that the defaults are to be used.
+// memory. data: null to store that the defaults are to be used. Nothing is written if the slot that held the newest
+// record, when the record was loaded or saved last, cannot be read now (CO_ERR_IF_NVM_WRITE).
 [[nodiscard]] CO_ERR save(CO_NODE& node, const store::Record& record, const uint8_t* data);
 
 // Returns whether num bytes are equal.

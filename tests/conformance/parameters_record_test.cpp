@@ -325,6 +325,115 @@ GroupDevice stored_twice(std::uint32_t older = 1, std::uint32_t newer = 2) {
   return device;
 }
 
+// A device whose memory has to be erased, with 1010h:3 at 512 in slots of 256 bytes.
+GroupDevice with_flash() {
+  GroupDevice device({1024, 8, 256});
+  device.first.Value = CO_PARA____;
+  device.second.Offset = 512;
+  return device;
+}
+
+std::uint32_t save(Fixture& node, GroupDevice& device, std::uint32_t number) {
+  device.ram[1].number = number;
+  node.rx("601#2310100373617665");
+  const std::vector<std::string> answer = node.frames();
+  REQUIRE(answer.size() == 1);
+  return answer[0] == "581#6010100300000000" ? 0 : answer[0] == "581#8010100300000606" ? 0x06060000 : 1;
+}
+
+TEST_CASE("parameters: while the newest record cannot be read \"save\" is refused and nothing is erased [S4]") {
+  enum class Hidden : std::uint8_t { all, newest, header };
+  for (const Hidden what : {Hidden::all, Hidden::newest, Hidden::header}) {
+    for (const bool is_loaded : {false, true}) {
+      CAPTURE(is_loaded);
+      GroupDevice device = with_flash();
+      {
+        Fixture node(device.setup());
+        CHECK(save(node, device, 2) == 0);
+        CHECK(save(node, device, 3) == 0);
+        if (!is_loaded) {
+          const Bytes before = device.nvm.bytes;
+          device.nvm.is_deaf = what == Hidden::all;
+          device.nvm.torn_from = what == Hidden::newest ? 768 + 24 : 768;
+          device.nvm.torn_to = what == Hidden::all ? 0 : 768 + 32;
+          CHECK(save(node, device, 4) == 0x06060000);
+          CHECK(device.nvm.bytes == before);
+        }
+      }
+      if (is_loaded) {
+        Fixture node(device.setup());
+        CHECK(device.ram[1].number == 3);
+        const Bytes before = device.nvm.bytes;
+        device.nvm.is_deaf = what == Hidden::all;
+        device.nvm.torn_from = what == Hidden::newest ? 768 + 24 : 768;
+        device.nvm.torn_to = what == Hidden::all ? 0 : 768 + 32;
+        CHECK(save(node, device, 4) == 0x06060000);
+        CHECK(device.nvm.bytes == before);
+        device.nvm.is_deaf = false;
+        device.nvm.torn_to = 0;
+        CHECK(save(node, device, 5) == 0);
+      }
+      device.nvm.is_deaf = false;
+      device.nvm.torn_to = 0;
+      Fixture next(device.setup());
+      CHECK(device.ram[1].number == (is_loaded ? 5 : 3));
+      CHECK_FALSE(device.nvm.misused);
+    }
+  }
+}
+
+TEST_CASE("parameters: a slot that cannot be read at the start is erased by the next \"save\" [S4]") {
+  for (const std::uint32_t torn : {512U, 536U, 768U, 792U}) {
+    CAPTURE(torn);
+    GroupDevice device = with_flash();
+    {
+      Fixture node(device.setup());
+      CHECK(save(node, device, 2) == 0);
+      CHECK(save(node, device, 3) == 0);
+    }
+    device.nvm.torn_from = torn;  // a power failure has left a word whose ECC is wrong for ever
+    device.nvm.torn_to = torn + 8;
+    std::uint32_t expected = torn < 768 ? 3 : 2;
+    for (std::uint32_t number = 4; number < 7; ++number) {
+      Fixture node(device.setup());
+      CHECK(device.ram[1].number == expected);
+      CHECK(save(node, device, number) == 0);
+      expected = number;
+    }
+    CHECK(device.nvm.torn_to == 0);
+    Fixture node(device.setup());
+    CHECK(device.ram[1].number == 6);
+    CHECK_FALSE(device.nvm.misused);
+  }
+}
+
+TEST_CASE("parameters: a read that fails once during a \"save\" loses no value [S4]") {
+  for (const CO_NVM_SHAPE shape : {CO_NVM_SHAPE{1024, 8, 256}, CO_NVM_SHAPE{1024, 1, 0}}) {
+    for (std::uint64_t read = 1;; ++read) {
+      CAPTURE(read);
+      GroupDevice device = with_flash();
+      device.nvm.shape = shape;
+      std::uint32_t newest = 3;
+      {
+        Fixture node(device.setup());
+        CHECK(save(node, device, 2) == 0);
+        CHECK(save(node, device, 3) == 0);
+        device.nvm.refuse_read = device.nvm.reads + read;
+        for (const std::uint32_t number : {4U, 5U}) {
+          newest = save(node, device, number) == 0 ? number : newest;
+        }
+      }
+      const bool is_over = device.nvm.reads < device.nvm.refuse_read;
+      device.nvm.refuse_read = 0;
+      Fixture node(device.setup());
+      CHECK(device.ram[1].number >= newest);
+      CHECK(device.ram[1].number <= 5);
+      CHECK(save(node, device, 6) == 0);
+      if (is_over) break;
+    }
+  }
+}
+
 TEST_CASE("parameters: if the newest record is damaged the previous one is loaded and ParaRecovered() is called") {
   const Bytes image = stored_twice().nvm.bytes;
   constexpr std::uint32_t size = CO_PARA_SPACE(8, 1, 1) / 2;

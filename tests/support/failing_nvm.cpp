@@ -41,7 +41,8 @@ struct FailingNvmDriver {
   static std::uint32_t read(void* context, std::uint32_t start, std::uint8_t* buffer, std::uint32_t size) {
     FailingNvm& nvm = memory(context);
     nvm.check(start, size, 1);
-    if (nvm.misused || nvm.is_off || ++nvm.reads == nvm.refuse_read) {
+    const bool is_torn = start < nvm.torn_to && start + size > nvm.torn_from;
+    if (nvm.misused || nvm.is_off || ++nvm.reads == nvm.refuse_read || is_torn || nvm.is_deaf) {
       return 0;
     }
     for (std::uint32_t n = 0; n < size; ++n) {
@@ -71,6 +72,9 @@ struct FailingNvmDriver {
     FailingNvm& nvm = memory(context);
     nvm.check(start, size, nvm.shape.EraseSize);
     std::uint32_t done = 0;
+    if (start <= nvm.torn_from && start + size >= nvm.torn_to) {
+      nvm.torn_from = nvm.torn_to = 0;
+    }
     while (!nvm.misused && done < size && nvm.step(nvm.bytes[start + done], 0xFF)) {
       ++done;
     }

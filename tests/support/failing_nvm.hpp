@@ -28,7 +28,10 @@ struct FailingNvm {
   std::uint64_t reads = 0;
   std::uint64_t corrupt_read = 0;  ///< number of the read that returns wrong bytes, from 1; 0: none
   std::uint64_t refuse_read = 0;   ///< number of the read that fails, from 1; 0: none
-  bool misused = false;            ///< an access has violated the geometry
+  std::uint32_t torn_from = 0;     ///< bytes torn_from … torn_to-1 cannot be read (ECC); erasing them ends this
+  std::uint32_t torn_to = 0;
+  bool is_deaf = false;  ///< no byte can be read
+  bool misused = false;  ///< an access has violated the geometry
 
   /// Restores the power.
   void power_up();
