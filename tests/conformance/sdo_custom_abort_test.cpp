@@ -76,6 +76,40 @@ TEST_CASE("SDO custom abort: set in the Size function at the last segment of a d
 }
 
 #if USE_OBJ_EX && CO_SSDO_N > 1
+TEST_CASE("SDO custom abort: every code but 0 is sent, in every kind of transfer") {
+  for (const std::uint32_t code : {1U, 2U, 0x05040005U, 0x80000000U}) {
+    CAPTURE(code);
+    LoggedStream refusing;
+    refusing.data = counting(20);
+    refusing.on_piece = [&](CO_OBJ* obj, CO_NODE* node) {
+      COObjTypeUserSDOAbort(obj, node, code);
+      return CO_ERR_TYPE_WR;
+    };
+    CO_IF_FRM abort = frame("581#8000310000000000");
+    CO_SET_LONG(&abort, code, 4);
+    const std::string refused = notation(abort);
+    Fixture node(Setup().only_small().with(refusing.extended(0x3100)));
+    node.ask("601#4000310000000000", "581#4100310014000000");
+    node.ask("601#6000000000000000", refused);
+    node.ask("601#2100310014000000", "581#6000310000000000");
+    node.ask("601#0001020304050607", refused);
+    node.ask("601#230031000A0B0C0D", refused);
+    check_idle(node);
+#if USE_SDO_BLOCK
+    refusing.data = counting(20);
+    node.ask("601#A40031007F000000", "581#C600310014000000");
+    node.ask("601#A300000000000000", refused);
+    node.ask("601#C200310014000000", "581#A40031007F000000");
+    node.rx("601#0101020304050607");
+    node.rx("601#0208090A0B0C0D0E");
+    node.rx("601#830F101112131400");
+    node.frames();
+    node.ask("601#C500000000000000", refused);
+    check_idle(node);
+#endif
+  }
+}
+
 // A node with an open transfer of its second SDO server, of an object whose type has an End function.
 struct TwoTransfers : LoggedStream, Fixture {
   explicit TwoTransfers(CO_OBJ other)

@@ -39,10 +39,10 @@ uint32_t load(CO_SDO& channel, uint32_t position) {
   const uint32_t n = smaller(CO_SDO_BUF_BYTE, channel.Size - position);
   __builtin_memset(buffer_of(channel), 0, n);  // clears bytes that the type may not fill
   const uint32_t abort = transfer_piece(channel, position, buffer_of(channel), n);
-  if (abort == not_reached) {
+  if (has(channel, behind)) {
     channel.Fill = 0;
     pause(*channel.Node);
-    return abort;
+    return no_abort;
   }
   channel.Fill = static_cast<uint16_t>(channel.Read - position);
   if (abort == no_abort) {
@@ -58,8 +58,8 @@ bool provide(CO_SDO& channel, uint32_t position, uint32_t& abort) {
     return true;
   }
   abort = load(channel, position);
-  const bool is_there = abort == no_abort;
-  abort = abort == not_reached ? no_abort : abort;
+  const bool is_there = abort == no_abort && !has(channel, behind);
+  clear(channel, behind);
   return is_there && event::is_allowed(*channel.Node, CO_SDO_ALLOWED);
 }
 

@@ -189,8 +189,9 @@ uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint3
       return CO_SDO_ERR_TOS_STATE;
     }
     err = seek_piece(channel, *channel.Obj, position);
-    if (has_block && err == CO_ERR_TYPE_AGAIN) {
-      return not_reached;
+    if (has_block && err == CO_ERR_TYPE_AGAIN && state_of(channel) == State::block_upload) {
+      set(channel, behind);
+      return no_abort;
     }
     if (channel.Obj == nullptr) {  // the Reset function has moved the entry
       return CO_SDO_ERR_TOS_STATE;

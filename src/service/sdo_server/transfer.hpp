@@ -31,6 +31,7 @@ enum Flag : uint8_t {
   sized = 0x01,     // download: the client has announced the size
   whole = 0x02,     // a value: collected in Value, read or written in one piece
   too_long = 0x04,  // block download: more data than the object can hold
+  behind = 0x04,    // block upload: the type needs another call to reach the position
   download = access::download,
   toggled = 0x10,  // segmented transfer: toggle bit expected next, as in the frame
   crc = 0x20,      // both sides support the CRC
@@ -145,12 +146,9 @@ inline void set_total([[maybe_unused]] CO_SDO& channel, [[maybe_unused]] uint32_
   }
 }
 
-// Result of transfer_piece() instead of an abort code: the type needs another call to reach the position.
-constexpr uint32_t not_reached = 1;
-
 // Read or write in the direction of the transfer, and return an abort code. begin_data: the first bytes, or none to
 // open a stream. transfer_piece: a piece, up to position Read; it may be less than n bytes at the end of an object of
-// unknown size. transfer_piece returns not_reached while the type has not reached the position.
+// unknown size. In a block upload transfer_piece sets the flag behind while the type has not reached the position.
 [[nodiscard]] uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n);
 [[nodiscard]] uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n);
 
