@@ -199,22 +199,22 @@ typedef struct CO_OBJ_T {
 } CO_OBJ;
 
 /// Returns the length of the object in bytes (see CO_OBJ_SIZE_FUNC). \a width: expected length, 0 if unknown.
-/// \retval 0  an argument is null, the node was never initialised, or the type has no Size function
+/// \retval 0  an argument is null, or the type has no Size function
 uint32_t COObjGetSize(CO_OBJ* obj, struct CO_NODE_T* node, uint32_t width);
 
 /// Calls the type's Init function and returns its result.
 /// \retval CO_ERR_NONE     success, or the type has no Init function
-/// \retval CO_ERR_BAD_ARG  an argument is null, or the node was never initialised
+/// \retval CO_ERR_BAD_ARG  an argument is null
 CO_ERR COObjInit(CO_OBJ* obj, struct CO_NODE_T* node);
 
 /// Calls the type's Reset function with \a para and returns its result.
 /// \retval CO_ERR_NONE     success, or the type has no Reset function
-/// \retval CO_ERR_BAD_ARG  an argument is null, or the node was never initialised
+/// \retval CO_ERR_BAD_ARG  an argument is null
 CO_ERR COObjReset(CO_OBJ* obj, struct CO_NODE_T* node, uint32_t para);
 
 /// Reads a value of \a width bytes into \a value. Access rights of the network are not checked. Returns the result of
 /// the type's Read function, or:
-/// \retval CO_ERR_BAD_ARG  an argument is null, the node was never initialised, or the object has another length
+/// \retval CO_ERR_BAD_ARG  an argument is null, or the object has another length
 /// \retval CO_ERR_OBJ_ACC  the type has no Read function
 CO_ERR COObjRdValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t width);
 
@@ -225,12 +225,12 @@ CO_ERR COObjRdValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t wi
 CO_ERR COObjWrValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t width);
 
 /// Reads a stream from its beginning: calls Reset(0), then reads \a size bytes into \a buffer. Returns the result of
-/// the type's functions, or: \retval CO_ERR_BAD_ARG  an argument is null, the node was never initialised, or a value
+/// the type's functions, or: \retval CO_ERR_BAD_ARG  an argument is null, or a value
 /// has another length \retval CO_ERR_OBJ_ACC  the type has no Read function
 CO_ERR COObjRdBufStart(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
 /// Reads the next \a size bytes of a stream. Returns the result of the type's Read function, or:
-/// \retval CO_ERR_BAD_ARG  an argument is null, the node was never initialised, or a value has another length
+/// \retval CO_ERR_BAD_ARG  an argument is null, or a value has another length
 /// \retval CO_ERR_OBJ_ACC  the type has no Read function
 CO_ERR COObjRdBufCont(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 

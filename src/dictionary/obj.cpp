@@ -28,10 +28,9 @@ using namespace co;
 
 namespace {
 
-// Returns whether an API function can access the object: it has a type, no argument is null, and CONodeInit() was
-// called.
+// Returns whether an API function can access the object: it has a type, and no argument is null.
 bool is_accessible(const CO_OBJ* obj, const CO_NODE_T* node) {
-  return obj != nullptr && obj->Type != nullptr && node != nullptr && port::is_initialised(*node);
+  return obj != nullptr && obj->Type != nullptr && node != nullptr;
 }
 
 }  // namespace
@@ -68,7 +67,8 @@ CO_ERR COObjRdBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t si
 }
 
 CO_ERR COObjWrBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
-  return is_accessible(obj, node) && buffer != nullptr ? obj::write_for_application(*obj, *node, buffer, size)
+  const bool is_ready = is_accessible(obj, node) && buffer != nullptr && port::is_initialised(*node);
+  return is_ready ? obj::write_for_application(*obj, *node, buffer, size)
                                                        : CO_ERR_BAD_ARG;
 }
 

@@ -14,6 +14,11 @@ extern const CO_NODE_EXT no_extension;
 // API have no effect.
 [[nodiscard]] inline bool is_initialised(const CO_NODE& node) { return node.Ext != nullptr; }
 
+#if USE_OD
+// Returns the index of co_od.h; null: none.
+[[nodiscard]] inline struct OD_T_* index_of(const CO_NODE& node) { return is_initialised(node) ? node.Ext->Od : nullptr; }
+#endif
+
 // Gives the node drivers that do nothing: it could not be initialised, and API calls of the application have no effect.
 void remove_drivers(CO_NODE& node);
 

@@ -3,6 +3,7 @@
 #include "dictionary/types/stream.hpp"
 #include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
+#include "hal/port.hpp"
 #include "od/transfer.hpp"
 #include "od/types.hpp"
 #include "wire/bytes.hpp"
@@ -391,7 +392,7 @@ CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
 
 // Returns the SDO transfer that is being served if the running access belongs to it, else null.
 OD_TRANSFER* transfer_of_original(const CO_OBJ& obj, const CO_NODE& node) {
-  OD_t* const od = node.Ext->Od;
+  OD_t* const od = port::index_of(node);
   return od != nullptr && is_called_by_transfer(*od, node, obj) ? find_transfer(*od, node, obj) : nullptr;
 }
 
@@ -511,7 +512,7 @@ CO_ERR ODStreamReset(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t position) {
 }
 
 CO_ERR ODStreamBegin(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t size) {
-  OD_t* const od = node->Ext->Od;
+  OD_t* const od = port::index_of(*node);
   OD_TRANSFER* const od_transfer = od == nullptr ? nullptr : begin_transfer(*od, *node, *obj, size);
   if (od == nullptr || od_transfer == nullptr) {
     return od == nullptr ? begin_original(*obj, *node, transfer, size) : CO_ERR_OBJ_STATE;
@@ -528,7 +529,7 @@ CO_ERR ODStreamBegin(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, u
 // Ends a transfer for the extension, then for the original type. If the end fails for the extension, the original type
 // gets its abort code.
 CO_ERR ODStreamEnd(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
-  OD_t* const od = node->Ext->Od;
+  OD_t* const od = port::index_of(*node);
   OD_TRANSFER* const od_transfer = od == nullptr ? nullptr : first_transfer(*od, *obj);
   if (od_transfer == nullptr) {
     return end_original(*obj, *node, transfer, abort);

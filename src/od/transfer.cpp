@@ -6,6 +6,7 @@
 #include "co_assert.h"
 #include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
+#include "hal/port.hpp"
 #include "od/kind.hpp"
 
 namespace co::od {
@@ -118,7 +119,7 @@ void end_accesses(OD_t& od, uint16_t index) {
 }
 
 bool is_extension_changed(const CO_NODE& node, const CO_OBJ& obj) {
-  OD_t* const od = node.Ext->Od;
+  OD_t* const od = port::index_of(node);
   if (od == nullptr || !is_called_by_transfer(*od, node, obj)) {
     return false;
   }

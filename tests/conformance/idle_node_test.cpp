@@ -100,7 +100,7 @@ struct Node {
 
 // --- All functions that have a node as an argument, or a part of one
 
-using Function = void (*)(Node& of);
+using Function = std::function<void(Node& of)>;
 
 template <class... T>
 void ignore(const T&...) {}
@@ -114,6 +114,15 @@ std::uint32_t number;
 CO_IF_FRM frame = {0x123, {}, 8};
 CO_TIME_OF_DAY time_of_day = {1, 2};
 void action(void*) {}
+
+// A function that calls another one for each entry of the table.
+Function for_entries(const std::function<void(CO_OBJ* obj, CO_NODE* node)>& call) {
+  return [call](Node& of) {
+    for (CO_OBJ& obj : of.table) {
+      call(&obj, &of.node);
+    }
+  };
+}
 constexpr std::uint32_t key = CO_DEV(0x2000, 0);
 
 const Function functions[] = {
@@ -144,15 +153,15 @@ const Function functions[] = {
     [](Node& of) { ignore(CODictInit(&of.node.Dict, &of.node, of.table.data(), of.spec.DictLen)); },
     [](Node& of) { ignore(CODictObjInit(&of.node.Dict, &of.node)); },
     [](Node& of) { ignore(CODictGetFault(&of.node.Dict, &number)); },
-    [](Node& of) { ignore(COObjGetSize(entry(of), &of.node, 1)); },
-    [](Node& of) { ignore(COObjInit(entry(of), &of.node)); },
-    [](Node& of) { ignore(COObjReset(entry(of), &of.node, 0)); },
-    [](Node& of) { ignore(COObjRdValue(entry(of), &of.node, bytes, 1)); },
-    [](Node& of) { ignore(COObjWrValue(entry(of), &of.node, bytes, 1)); },
-    [](Node& of) { ignore(COObjRdBufStart(entry(of), &of.node, bytes, 1)); },
-    [](Node& of) { ignore(COObjRdBufCont(entry(of), &of.node, bytes, 1)); },
-    [](Node& of) { ignore(COObjWrBufStart(entry(of), &of.node, bytes, 1)); },
-    [](Node& of) { ignore(COObjWrBufCont(entry(of), &of.node, bytes, 1)); },
+    for_entries([](CO_OBJ* obj, CO_NODE* node) { ignore(COObjGetSize(obj, node, 1)); }),
+    for_entries([](CO_OBJ* obj, CO_NODE* node) { ignore(COObjInit(obj, node)); }),
+    for_entries([](CO_OBJ* obj, CO_NODE* node) { ignore(COObjReset(obj, node, 0)); }),
+    for_entries([](CO_OBJ* obj, CO_NODE* node) { ignore(COObjRdValue(obj, node, bytes, 1)); }),
+    for_entries([](CO_OBJ* obj, CO_NODE* node) { ignore(COObjWrValue(obj, node, bytes, 1)); }),
+    for_entries([](CO_OBJ* obj, CO_NODE* node) { ignore(COObjRdBufStart(obj, node, bytes, 1)); }),
+    for_entries([](CO_OBJ* obj, CO_NODE* node) { ignore(COObjRdBufCont(obj, node, bytes, 4)); }),
+    for_entries([](CO_OBJ* obj, CO_NODE* node) { ignore(COObjWrBufStart(obj, node, bytes, 1)); }),
+    for_entries([](CO_OBJ* obj, CO_NODE* node) { ignore(COObjWrBufCont(obj, node, bytes, 4)); }),
     [](Node& of) { COObjTypeUserSDOAbort(entry(of), &of.node, 1); },
     // co_if.h
     [](Node& of) { COIfInit(&of.node.If, &of.node, 1000); },
@@ -330,7 +339,7 @@ const Function failures[] = {
 };
 
 TEST_CASE("idle node: every function returns after each failed initialisation") {
-  for (const Function fail : failures) {
+  for (const Function& fail : failures) {
     CAPTURE(&fail - failures);
     for (unsigned n = 0; n < std::size(functions); ++n) {
       CAPTURE(n);

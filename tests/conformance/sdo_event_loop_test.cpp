@@ -116,7 +116,7 @@ TEST_CASE("loop without idle calls: a block upload is continued with a driver th
     for (unsigned n = 0; n < 200 && all.size() < 127; ++n) {
       node.can.accept_next(places);
       const std::vector<std::string> some = tick(node);
-      CHECK(some.size() <= std::min<std::size_t>(pace, places));
+      CHECK(some.size() <= std::min<std::uint64_t>(pace, places));
       append(all, some);
     }
     CHECK(all.size() == 127);

@@ -43,7 +43,7 @@ TEST_CASE("1021h: files of every length are read by every kind of transfer [O3]"
   }
   for (const std::uint32_t size : {1U, 4U, 5U, 7U, 8U, 889U, 890U, 2000U}) {
     CAPTURE(size);
-    const Bytes expected(file.begin(), file.begin() + size);
+    const Bytes expected(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size));
     Device device(file.data(), size, CO_EDS_FORMAT_PLAIN);
     CHECK(device.node.upload(0x1021, 0) == expected);
 #if USE_SDO_BLOCK

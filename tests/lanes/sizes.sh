@@ -40,12 +40,12 @@ choose_cpu() {  # CPU
     *) compile=($tools-gcc -mcpu=$core -mthumb) specs=(--specs=nano.specs --specs=nosys.specs) ;;
   esac
   configure=(-DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/$toolchain.cmake" -DLEXICAN_CPU=$core)
-  compile+=(-Os -ffunction-sections -fdata-sections -Wall -Werror)
+  compile+=(-Os -ffunction-sections -fdata-sections)
   lto=(-flto -ffat-lto-objects)
 }
 
 compile_c() {  # SOURCE OUTPUT FLAG...
-  "${compile[@]}" -std=c11 -I "$root/include" -I "$root/config" -c "$root/tests/sizes/$1" -o "$2" "${@:3}"
+  "${compile[@]}" -Wall -Werror -std=c11 -I "$root/include" -I "$root/config" -c "$root/tests/sizes/$1" -o "$2" "${@:3}"
 }
 
 preset_flag() { echo "-DCO_CFG_PRESET=\"presets/$1.h\""; }  # PRESET

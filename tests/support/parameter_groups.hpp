@@ -41,7 +41,7 @@ struct GroupDevice {
   /// Writes bytes into the non-volatile memory, as the content before the start of a node.
   template <std::size_t size>
   void put(std::uint32_t start, const std::array<std::uint8_t, size>& bytes) {
-    std::copy(bytes.begin(), bytes.end(), nvm.bytes.begin() + start);
+    std::copy(bytes.begin(), bytes.end(), nvm.bytes.begin() + static_cast<std::ptrdiff_t>(start));
   }
 
   FailingNvm nvm{{1024, 1, 0}};

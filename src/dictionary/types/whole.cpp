@@ -4,6 +4,7 @@
 #include "co_core.h"
 #include "dictionary/obj.hpp"
 #include "dictionary/types/stream.hpp"
+#include "hal/port.hpp"
 #if USE_OD
 #include "co_od.h"
 #endif
@@ -18,7 +19,7 @@ namespace {
 // that may have ended the application's access (OD_extension_init()).
 class KeptAccess {
  public:
-  explicit KeptAccess(const CO_NODE& node) : od_(node.Ext->Od) {
+  explicit KeptAccess(const CO_NODE& node) : od_(port::index_of(node)) {
     if (od_ != nullptr) {
       changes_ = od_->Changes;
       before_ = od_->Transfer[OD_TRANSFER_N - 1];
