@@ -22,9 +22,9 @@
 /// Prompt: a CO_OS_PROMPT, Data of all entries of 1026h. Each access transports one character.
 /// - Sub-index 1, CO_TOS_STDIN, write-only: a write by SDO or RPDO calls CO_OS_PROMPT.Input.
 /// - Sub-indices 2 and 3, CO_TOS_STDOUT, StdOut and StdErr: an SDO upload takes the next character of COOsPrint();
-///   without one it is aborted with 0800 0024h. A TPDO that maps an entry takes one character each time it is
-///   transmitted, and contains 0 if there is none. Characters trigger event-driven TPDOs: one each millisecond, or in
-///   each inhibit time (1800h:3).
+///   without one it is aborted with 0800 0024h. A TPDO that maps an entry transmits one character each time, or 0 if
+///   there is none. Characters trigger event-driven TPDOs: one each millisecond, or in each inhibit time (1800h:3).
+///   Characters that wait for Operational or for the bus stay in the ring, until their frame was given to the driver.
 ///
 /// CONodeInit() and NMT resets abort a command that is executed, and empty all buffers. Context: the loop; with
 /// USE_REAL_TIME also the thread that receives or transmits a PDO that maps 1026h.
@@ -82,7 +82,8 @@ typedef struct CO_OS_COMMAND_T {
   uint16_t Used;               ///< bytes of complete commands, with their lengths
   uint16_t Base;               ///< value of Used when the execution has ended
   uint16_t Next;               ///< position of the next command to be executed
-  uint16_t Written;            ///< bytes of the command that is being written
+  uint16_t Begin;              ///< position of the command that is being written; FFFFh: none
+  uint16_t Written;            ///< its bytes
   uint16_t Last;               ///< position of the command that was written last
   uint16_t LastLength;         ///< its bytes
   uint16_t ReplyLength;        ///< bytes of the reply
@@ -94,7 +95,7 @@ typedef struct CO_OS_COMMAND_T {
 
 /// Initialises a CO_OS_COMMAND. \a command, \a reply: arrays of uint8_t; \a execute, \a abort: functions, see there.
 #define CO_OS_COMMAND_OF(command, reply, execute, abort) \
-  { (command), sizeof(command), (reply), sizeof(reply), (execute), (abort), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+  { (command), sizeof(command), (reply), sizeof(reply), (execute), (abort), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 
 /// Adds \a length bytes at \a bytes to the reply of the command that is executed: all or none.
 /// \retval CO_ERR_NONE       the bytes were added
@@ -116,6 +117,7 @@ typedef struct CO_OS_OUTPUT_T {
   uint16_t Size;           ///< bytes at Start
   uint16_t First;          ///< position of the oldest character
   uint16_t Num;            ///< number of characters
+  uint8_t Taken;           ///< whether a TPDO has read the oldest one
   struct CO_NODE_T* Node;  ///< owner
   uint32_t Key;            ///< key of the entry
   CO_TMR_MEM Tmr;          ///< time until the next character triggers TPDOs
@@ -133,9 +135,9 @@ typedef struct CO_OS_PROMPT_T {
 #define CO_OS_PROMPT_OF(input, out, err) \
   { (input), CO_OS_OUTPUT_OF(out), CO_OS_OUTPUT_OF(err) }
 /// Initialises a CO_OS_OUTPUT. \a memory: array of uint8_t.
-#define CO_OS_OUTPUT_OF(memory)                                      \
-  {                                                                  \
-    (memory), sizeof(memory), 0, 0, 0, 0, { 0, 0, 0, 0, 0, 0, 0, 0 } \
+#define CO_OS_OUTPUT_OF(memory)                                         \
+  {                                                                     \
+    (memory), sizeof(memory), 0, 0, 0, 0, 0, { 0, 0, 0, 0, 0, 0, 0, 0 } \
   }
 
 /// Appends \a length characters at \a text to an output of 1026h, all or none, and triggers the event-driven TPDOs that

@@ -113,6 +113,16 @@ void end_sync_window(CO_NODE& node);
 // TPDOs, which run_deferred() sends.
 void change_object(CO_NODE& node, const CO_OBJ& obj);
 
+// Whether a TPDO could transmit the value of an object now.
+enum class Outlet : uint8_t {
+  none,    // no TPDO maps the object
+  closed,  // not in Operational
+  queued,  // the last frame of the TPDO is queued: a newer one would replace it
+  full,    // the transmit queue is full
+  open
+};
+[[nodiscard]] Outlet find_outlet(CO_NODE& node, const CO_OBJ& obj);
+
 // Sets the node-ID that the application has chosen.
 void change_node_id(CO_NODE& node, uint8_t id);
 

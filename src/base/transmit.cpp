@@ -170,6 +170,17 @@ bool is_full(CO_NODE& node) {
   return node.TxQueue.Num == node.TxQueue.Len;
 }
 
+bool is_queued(const CO_NODE& node, uint32_t identifier) {
+  const CO_TX_QUEUE& queue = node.TxQueue;
+  unsigned n = 0;
+  while (n < queue.Num && queue.Frame[n].Identifier != identifier) {
+    ++n;
+  }
+  return n < queue.Num;
+}
+
+bool has_place_for_application(const CO_NODE& node) { return node.TxQueue.Num < places_for_application(node.TxQueue); }
+
 void withdraw(CO_NODE& node, uint32_t identifier) {
   CO_TX_QUEUE& queue = node.TxQueue;
   unsigned kept = queue.Fixed;

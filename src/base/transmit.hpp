@@ -40,6 +40,11 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 // Returns whether send() would lose a frame now.
 [[nodiscard]] bool is_full(CO_NODE& node);
 
+// Return, without offering frames to the driver, whether a frame of the identifier is queued, and whether a frame of
+// the application could be.
+[[nodiscard]] bool is_queued(const CO_NODE& node, uint32_t identifier);
+[[nodiscard]] bool has_place_for_application(const CO_NODE& node);
+
 // Fixes the queued frames: they are sent before all frames that are queued later, the boot-up message included.
 void fix_order(CO_NODE& node);
 

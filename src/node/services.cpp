@@ -394,6 +394,8 @@ void event::change_configuration(CO_NODE& node, const CO_OBJ& obj) { para::on_wr
 
 void event::change_object(CO_NODE& node, const CO_OBJ& obj) { pdo::change_object(node, obj); }
 
+event::Outlet event::find_outlet(CO_NODE& node, const CO_OBJ& obj) { return pdo::find_outlet(node, obj); }
+
 namespace {
 
 // Enters an NMT state: sets the permissions, then calls on_mode of every service.

@@ -145,6 +145,50 @@ TEST_CASE("1023h: the command that was written last is read back [O4]") {
   CHECK(shell.node.upload(0x1023, 1) == text("two"));
 }
 
+TEST_CASE("1023h: after an aborted download the last complete command is read back [O4]") {
+  for (const bool is_buffered : {false, true}) {
+    Shell shell;
+    CHECK(shell.mode(is_buffered ? CO_OS_MODE_BUFFERED : CO_OS_MODE_IMMEDIATE) == 0);
+    CHECK(shell.send("=first") == 0);
+    CHECK(shell.send("=last") == 0);
+    for (const bool has_segment : {false, true}) {
+      shell.node.ask("601#2123100109000000", "581#6023100100000000");
+      if (has_segment) shell.node.ask("601#003D696464646464", "581#2000000000000000");
+      shell.node.rx("601#8023100100000008");
+      CHECK(shell.node.upload(0x1023, 1) == text("=last"));
+    }
+    CHECK(shell.send("=next") == 0);
+    CHECK(shell.node.upload(0x1023, 1) == text("=next"));
+    if (is_buffered) CHECK(shell.mode(CO_OS_MODE_EXECUTE) == 0);
+    CHECK(shell.log() == "=first;=last;=next;");
+    CHECK(shell.node.upload(0x1023, 1) == text("=next"));
+  }
+}
+
+TEST_CASE("1023h: a command that needs the memory of the last one replaces it [O4]") {
+  Shell shell;
+  CHECK(shell.send("=0123456789abcdef") == 0);
+  const std::string longest = "=" + std::string(37, 'x');
+  shell.node.ask("601#2123100126000000", "581#6023100100000000");
+  for (unsigned n = 0; n < 4; ++n) {
+    shell.node.ask(n % 2 == 0 ? "601#0078787878787878" : "601#1078787878787878",
+                   n % 2 == 0 ? "581#2000000000000000" : "581#3000000000000000");
+  }
+  shell.node.rx("601#8023100100000008");
+  CHECK(shell.node.upload(0x1023, 1).empty());
+  CHECK(shell.send(longest) == 0);
+  CHECK(shell.node.upload(0x1023, 1) == text(longest));
+  CHECK(shell.log() == "=0123456789abcdef;" + longest + ";");
+}
+
+TEST_CASE("1023h: a command of 0 bytes is executed as such [O4]") {
+  Shell shell;
+  CHECK(shell.send("=abc") == 0);
+  CHECK(shell.send("") == 0);
+  CHECK(shell.log() == "=abc;;");
+  CHECK(shell.node.upload(0x1023, 1).empty());
+}
+
 TEST_CASE("1023h: a command that takes longer has status 255 until COOsEnd [O4]") {
   Shell shell;
   CHECK(shell.send("=old") == 0);

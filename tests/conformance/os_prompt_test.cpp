@@ -247,18 +247,84 @@ TEST_CASE("1026h: a reset or another initialisation during the output ends it [O
   }
 }
 
-TEST_CASE("1026h: characters that wait when Operational is left follow with the next output [O6]") {
+TEST_CASE("1026h: characters that wait for Operational are sent when it is entered [O6]") {
   PdoPrompt device(0);
   CHECK(print(device.node, 2, "ab") == CO_ERR_NONE);
   device.node.tx("181#61");
   device.node.rx("000#8001");
   device.node.after(10ms);
+  CHECK(print(device.node, 2, "c") == CO_ERR_NONE);
   device.node.silent();
   device.node.rx("000#0101");
-  CHECK(print(device.node, 2, "c") == CO_ERR_NONE);
-  device.node.tx("181#62");
-  device.node.after(1ms);
-  device.node.tx("181#63");
+  for (const char* const next : {"181#62", "181#63"}) {
+    device.node.after(1ms);
+    device.node.tx(next);
+  }
+  device.node.after(100ms);
+  device.node.silent();
+}
+
+// Returns the characters in the frames that TPDO 1 has sent.
+std::string output(Fixture& node) {
+  std::string all;
+  for (const std::string& line : node.frames()) {
+    if (line.compare(0, 4, "181#") == 0) all += static_cast<char>(std::stoi(line.substr(4), nullptr, 16));
+  }
+  return all;
+}
+
+TEST_CASE("1026h: text that is printed before its TPDO exists is sent once it does [O6]") {
+  PdoPrompt device(0);
+  device.node.rx("000#8001");
+  CHECK(device.node.set(0x1800, 1, 4, 0xC0000181) == 0);
+  CHECK(print(device.node, 2, "boot") == CO_ERR_NONE);
+  device.node.after(100ms);
+  device.node.silent();
+  CHECK(device.node.set(0x1800, 1, 4, 0x40000181) == 0);
+  device.node.rx("000#0101");
+  device.node.after(20ms);
+  CHECK(output(device.node) == "boot");
+}
+
+TEST_CASE("1026h: no character is lost on a bus that is full for a while, or that is left meanwhile [O6]") {
+  for (const bool is_left : {false, true}) {
+    PdoPrompt device(0);
+    std::string printed;
+    std::string sent;
+    for (unsigned ms = 0; ms < 300; ++ms) {
+      if (ms == 20) device.node.can.refuse_all();
+      if (ms == 60 && is_left) device.node.rx("000#8001");
+      if (ms == 120) device.node.can.accept_all();
+      if (ms == 130 && is_left) device.node.rx("000#0101");
+      const char next[] = {static_cast<char>('A' + ms % 26), 0};
+      if (ms < 200 && print(device.node, 2, next) == CO_ERR_NONE) printed += next;
+      device.node.after(1ms);
+      sent += output(device.node);
+    }
+    CHECK(printed.size() > 80);
+    CHECK(sent == printed);
+  }
+}
+
+TEST_CASE("1026h: no character is lost while the transmit queue is full of other frames [O6]") {
+  PdoPrompt device(0);
+  device.node.can.refuse_all();
+  for (unsigned n = 0; n < 40; ++n) {
+    device.node.call([&] {
+      CO_IF_FRM frm = {0x100, {}, 1};
+      COIfCanSend(&device.node.node.If, &frm);
+    });
+  }
+  CHECK(print(device.node, 2, "abc") == CO_ERR_NONE);
+  device.node.trigger(0);
+  device.node.can.accept_all();
+  std::string sent;
+  for (unsigned n = 0; n < 10; ++n) {
+    device.node.after(1ms);
+    sent += output(device.node);
+  }
+  sent.erase(std::remove(sent.begin(), sent.end(), 0), sent.end());
+  CHECK(sent == "abc");
 }
 
 #endif

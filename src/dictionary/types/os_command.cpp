@@ -2,8 +2,9 @@
 // 1023h, OS command, 1024h, its mode, and 1025h, debugger interface. [301:7.5.2.26, 7.5.2.27, 7.5.2.28]
 //
 // CO_OS_COMMAND.Command contains records of a length (two bytes) and a command. The records up to Used are complete. A
-// download writes behind them, so that it has no effect before its end. An execution is the run of the records from
-// Next to Used: one command, or all stored ones.
+// download writes behind them, so that it has no effect before its end; also behind the last complete command, which is
+// kept after its execution, as long as there is space. An execution is the run of the records from Next to Used: one
+// command, or all stored ones.
 #include "co_os.h"
 
 #include "base/events.hpp"
@@ -21,6 +22,7 @@ namespace {
 using namespace co;
 
 constexpr uint16_t length_bytes = 2;
+constexpr uint16_t no_download = UINT16_MAX;  // value of Begin
 
 // Bits of CO_OS_COMMAND.Phase.
 constexpr uint8_t busy = 1;      // a command is executed
@@ -85,8 +87,9 @@ void run(CO_NODE& node, CO_OS_COMMAND& os) {
   }
 }
 
-// Begins the execution of the records from a position on.
+// Begins the execution of the records from a position on. A download in progress cannot continue.
 void execute_from(CO_NODE& node, CO_OS_COMMAND& os, uint16_t position) {
+  os.Begin = no_download;
   os.Base = position;
   os.Next = position;
   os.Failed = 0;
@@ -100,6 +103,7 @@ void abort_all(CO_NODE& node, CO_OS_COMMAND& os) {
   os.Base = 0;
   os.Used = 0;
   os.Next = 0;
+  os.Begin = no_download;
   if (!is_executing(os)) {
     return;
   }
@@ -140,6 +144,30 @@ uint32_t command_size(CO_OBJ* obj, CO_NODE*, uint32_t width) {
   return width < longest ? width : longest;
 }
 
+// Returns the position of a download: behind the complete records, and behind the last command if there is space.
+uint16_t begin_of_download(const CO_OS_COMMAND& os) {
+  const uint32_t kept = uint32_t{os.Last} + length_bytes + os.LastLength;
+  const bool is_kept = os.Last >= os.Used && os.LastLength != 0 && kept + length_bytes < os.CommandSize;
+  return is_kept ? static_cast<uint16_t>(kept) : os.Used;
+}
+
+// Forgets the last command if a download overwrites it.
+void forget_last(CO_OS_COMMAND& os) {
+  if (os.Last >= os.Used) {
+    os.LastLength = 0;
+  }
+}
+
+// Moves the download to the end of the complete records: it is complete, or the space behind the last command is too
+// small for it.
+void move_to_records(CO_OS_COMMAND& os) {
+  if (os.Begin != os.Used) {
+    __builtin_memmove(record_at(os, os.Used) + length_bytes, record_at(os, os.Begin) + length_bytes, os.Written);
+    os.Begin = os.Used;
+    forget_last(os);
+  }
+}
+
 CO_ERR begin_command(CO_OBJ* obj, CO_NODE*, CO_OBJ_TRANSFER transfer, uint32_t) {
   auto* const os = data_of<CO_OS_COMMAND>(*obj);
   if (os == nullptr) {
@@ -151,8 +179,7 @@ CO_ERR begin_command(CO_OBJ* obj, CO_NODE*, CO_OBJ_TRANSFER transfer, uint32_t) 
   if (is_executing(*os)) {
     return CO_ERR_OBJ_STATE;
   }
-  os->Last = os->Used;
-  os->LastLength = 0;
+  os->Begin = begin_of_download(*os);
   os->Written = 0;
   return CO_ERR_NONE;
 }
@@ -179,7 +206,7 @@ CO_ERR read_command(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t length) {
 
 // Returns whether the download can continue. Since it began, a write to 1024h may have started an execution, or
 // removed the records before it.
-bool is_in_place(const CO_OS_COMMAND& os) { return !is_executing(os) && os.Last == os.Used; }
+bool is_in_place(const CO_OS_COMMAND& os) { return os.Begin != no_download; }
 
 CO_ERR write_command(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t length) {
   auto* const os = data_of<CO_OS_COMMAND>(*obj);
@@ -193,7 +220,13 @@ CO_ERR write_command(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t length) {
   if (n != length) {
     return CO_ERR_OBJ_SIZE;
   }
-  wire::copy(record_at(*os, os->Used) + length_bytes + os->CommandOffset, static_cast<const uint8_t*>(buffer), n);
+  if (uint32_t{os->Begin} + length_bytes + os->CommandOffset + n > os->CommandSize) {
+    move_to_records(*os);
+  }
+  if (os->Begin == os->Used) {
+    forget_last(*os);
+  }
+  wire::copy(record_at(*os, os->Begin) + length_bytes + os->CommandOffset, static_cast<const uint8_t*>(buffer), n);
   os->CommandOffset += n;
   os->Written = static_cast<uint16_t>(os->CommandOffset);
   return CO_ERR_NONE;
@@ -201,6 +234,7 @@ CO_ERR write_command(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t length) {
 
 // Completes the record behind the others, and executes it.
 void accept(CO_NODE& node, CO_OS_COMMAND& os) {
+  move_to_records(os);
   const uint16_t position = os.Used;
   const uint16_t length = os.Written;
   uint8_t* const record = record_at(os, position);
@@ -209,6 +243,7 @@ void accept(CO_NODE& node, CO_OS_COMMAND& os) {
   os.Last = position;
   os.LastLength = length;
   os.Used = static_cast<uint16_t>(position + length_bytes + length);
+  os.Begin = no_download;
   if (os.Mode == CO_OS_MODE_IMMEDIATE) {
     execute_from(node, os, position);
   }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1026h, OS prompt. [301:7.5.2.29]
+//
+// A character that a TPDO has read stays in the ring until its frame has left the transmit queue: until then a newer
+// frame of the TPDO would replace it, and the end of Operational withdraws it.
 #include "co_os.h"
 
 #include "base/events.hpp"
@@ -11,10 +14,15 @@
 namespace {
 
 using namespace co;
+using event::Outlet;
 
 constexpr uint16_t index_prompt = 0x1026;
 constexpr uint8_t sub_out = 2;
 constexpr uint8_t sub_err = 3;
+
+// Values of CO_OS_OUTPUT.Taken.
+constexpr uint8_t taken = 1;    // a TPDO has read the oldest character
+constexpr uint8_t waiting = 2;  // and its frame is queued
 
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return uintptr_t{obj->Data} == 0 ? 0 : 1; }
 
@@ -58,6 +66,7 @@ CO_ERR init_output(CO_OBJ* obj, CO_NODE* node) {
   if (err == CO_ERR_NONE && output != nullptr) {
     output->First = 0;
     output->Num = 0;
+    output->Taken = 0;
     output->Node = node;
     output->Key = obj->Key;
     stop_timer(*node, output->Tmr);
@@ -65,18 +74,11 @@ CO_ERR init_output(CO_OBJ* obj, CO_NODE* node) {
   return err;
 }
 
-// Triggers the TPDOs of the next character. CODictInit() may have moved the entry.
-void on_time(void* output_pointer) {
-  const CO_OS_OUTPUT& output = *static_cast<CO_OS_OUTPUT*>(output_pointer);
-  const CO_OBJ* const obj = dict::find(output.Node->Dict, output.Key);
-  if (obj != nullptr && output.Num != 0) {
-    event::change_object(*output.Node, *obj);
-  }
-}
+void on_time(void* output_pointer);
 
-void start_timer(CO_OS_OUTPUT& output) {
+void start_timer(CO_OS_OUTPUT& output, uint16_t ms) {
   CO_TMR& timers = output.Node->Tmr;
-  const uint32_t ticks = tmr::ticks(timers, 1, CO_TMR_UNIT_1MS);
+  const uint32_t ticks = tmr::ticks(timers, ms, CO_TMR_UNIT_1MS);
   tmr::start(timers, output.Tmr, ticks != 0 ? ticks : 1, 0, on_time, &output);
 }
 
@@ -88,21 +90,72 @@ uint8_t take(CO_OS_OUTPUT& output) {
   return character;
 }
 
-// Starts the time until the next character triggers TPDOs, if there is one: events of a TPDO while it reads its objects
-// have no effect. An SDO client is refused without a character; a TPDO is transmitted with 0.
+// Removes the character that a TPDO has read, unless its frame is queued, or was queued until Operational ended.
+void settle(CO_OS_OUTPUT& output, Outlet outlet) {
+  if (output.Taken == 0) {
+    return;
+  }
+  if (outlet == Outlet::queued) {
+    output.Taken = waiting;
+    return;
+  }
+  const bool is_withdrawn = output.Taken == waiting && (outlet == Outlet::closed || outlet == Outlet::none);
+  output.Taken = 0;
+  if (!is_withdrawn) {
+    take(output);
+  }
+}
+
+// Triggers the TPDOs of the next character as soon as they can transmit it, and until then comes back. CODictInit() may
+// have moved the entry.
+void on_time(void* output_pointer) {
+  CO_OS_OUTPUT& output = *static_cast<CO_OS_OUTPUT*>(output_pointer);
+  const CO_OBJ* const obj = dict::find(output.Node->Dict, output.Key);
+  if (obj == nullptr) {
+    return;
+  }
+  const Outlet outlet = event::find_outlet(*output.Node, *obj);
+  settle(output, outlet);
+  if (output.Num == 0) {
+    return;
+  }
+  switch (outlet) {
+    case Outlet::open: event::change_object(*output.Node, *obj); return;
+    case Outlet::none: start_timer(output, 10); return;
+    default: start_timer(output, 1);
+  }
+}
+
+// Reads the next character for a TPDO, which is transmitted with 0 if there is none.
+uint8_t read_for_tpdo(CO_OS_OUTPUT& output, Outlet outlet) {
+  if (output.Num == 0) {
+    return 0;
+  }
+  start_timer(output, 1);
+  if (outlet == Outlet::full) {  // the frame will be lost
+    return 0;
+  }
+  output.Taken = output.Taken == 0 ? taken : output.Taken;
+  return output.Start[output.First];
+}
+
+// An SDO client is refused without a character, and while the oldest one is queued in a frame.
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t length) {
   CO_OS_OUTPUT* const output = output_of(*obj);
   if (output == nullptr || length != 1) {
     return CO_ERR_BAD_ARG;
   }
-  if (output->Num == 0) {
-    *static_cast<uint8_t*>(buffer) = 0;
-    return node->RequestObj == obj ? CO_ERR_OBJ_NO_DATA : CO_ERR_NONE;
+  const Outlet outlet = event::find_outlet(*node, *obj);
+  uint8_t& character = *static_cast<uint8_t*>(buffer);
+  settle(*output, outlet);
+  if (node->RequestObj != obj && output->Node == node) {
+    character = read_for_tpdo(*output, outlet);
+    return CO_ERR_NONE;
   }
-  *static_cast<uint8_t*>(buffer) = take(*output);
-  if (output->Num != 0 && output->Node == node) {
-    start_timer(*output);
+  if (output->Num == 0 || output->Taken != 0) {
+    return CO_ERR_OBJ_NO_DATA;
   }
+  character = take(*output);
   return CO_ERR_NONE;
 }
 
@@ -138,8 +191,8 @@ CO_ERR COOsPrint(CO_NODE* node, uint8_t sub, const uint8_t* text, uint16_t lengt
     return CO_ERR_OBJ_SIZE;
   }
   append(*output, text, length);
-  if (length != 0 && !tmr::is_running(output->Tmr)) {
-    event::change_object(*node, *obj);
+  if (length != 0 && output->Node == node && !tmr::is_running(output->Tmr)) {
+    on_time(output);
     event::run_deferred(*node);
   }
   return CO_ERR_NONE;

@@ -14,6 +14,7 @@ void sample(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
 void end_window(CO_NODE& node) { node.WindowOver = 1; }
 void flush(CO_NODE&) {}
 CO_ERR change_object(CO_NODE&, const CO_OBJ&) { return CO_ERR_TPDO_OBJ_TRIGGER; }
+event::Outlet find_outlet(CO_NODE&, const CO_OBJ&) { return event::Outlet::none; }
 CO_ERR send_marked(CO_NODE&) { return CO_ERR_NONE; }
 CO_ERR request(CO_NODE&, uint16_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
 CO_ERR request_object(CO_NODE&, const CO_OBJ&) { return CO_ERR_TPDO_OBJ_TRIGGER; }

@@ -2,6 +2,7 @@
 // Process data objects. [301:7.2.2]
 #pragma once
 
+#include "base/events.hpp"
 #include "co_core.h"
 
 namespace co::pdo {
@@ -33,6 +34,7 @@ void flush(CO_NODE& node);
 // Marks the TPDOs that map the object. Returns the error of a TPDO that cannot be sent; CO_ERR_TPDO_OBJ_TRIGGER: no
 // TPDO maps the object.
 CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj);
+[[nodiscard]] event::Outlet find_outlet(CO_NODE& node, const CO_OBJ& obj);
 // Sends the marked TPDOs: part of the deferred work. Requests of callbacks and type functions are deferred. Returns the
 // last error. The caller ensures that a TPDO is marked and OdLock is not held.
 CO_ERR send_marked(CO_NODE& node);

@@ -435,6 +435,23 @@ CO_ERR request_object(CO_NODE& node, const CO_OBJ& obj) {
   return err != CO_ERR_NONE ? err : sent;
 }
 
+event::Outlet find_outlet(CO_NODE& node, const CO_OBJ& obj) {
+  using event::Outlet;
+  bool is_mapped = false;
+  for (CO_TPDO& pdo : node.TPdo) {
+    if (exists(pdo.Map) && (node.Pending & event::remap) == 0 && maps(pdo.Map, number_of(node, obj))) {
+      is_mapped = true;
+      if (transmit::is_queued(node, pdo.Identifier)) {
+        return Outlet::queued;
+      }
+    }
+  }
+  if (!is_mapped || !is_operational(node)) {
+    return is_mapped ? Outlet::closed : Outlet::none;
+  }
+  return transmit::has_place_for_application(node) ? Outlet::open : Outlet::full;
+}
+
 bool was_sent(CO_NODE& node, uint16_t number) {
   CO_ASSERT(number < CO_TPDO_N);
   return take_transferred(node.TPdo[number].Map);
