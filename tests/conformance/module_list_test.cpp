@@ -43,6 +43,24 @@ TEST_CASE("1027h: sub 0 is the number of modules and the other sub-indices are t
   device.node.ask("601#4027100300000000", "581#4B271003FEFF0000");
 }
 
+TEST_CASE("1027h: a number of modules above 254 is refused, not shortened [O7]") {
+  static std::uint16_t number = 0;
+  const CO_MODULE_LIST list = {[](CO_NODE*, void*, std::uint8_t, std::uint16_t* value) {
+    *value = number;
+    return CO_ERR_NONE;
+  }};
+  Modular device(list);
+  number = 254;
+  device.node.ask("601#4027100000000000", "581#4F271000FE000000");
+  for (const std::uint16_t refused : {255, 256, 0x1002}) {
+    number = refused;
+    device.node.ask("601#4027100000000000", "581#8027100020000008");
+    device.node.ask("601#4027100100000000", std::string("581#4B271001") + (refused == 255   ? "FF000000"
+                                                                           : refused == 256 ? "00010000"
+                                                                                            : "02100000"));
+  }
+}
+
 TEST_CASE("1027h: a place without a module has no data and one beyond the table does not exist [O7]") {
   Modular device;
   device.node.ask("601#4027100200000000", "581#8027100224000008");

@@ -423,6 +423,33 @@ TEST_CASE("recorder: a stopped node does not record and a new initialisation doe
   CHECK(node.plot() == "1;4\n");
 }
 
+TEST_CASE("2400h: after CODictInit() the object of the present table counts, or none [R6]") {
+  RecorderNode node;
+  std::vector<CO_OBJ> table(node.node.Dict.Root, node.node.Dict.Root + node.node.Dict.Num);
+  table.push_back(CO_OBJ_DICT_ENDMARK);
+  const auto at =
+      std::find_if(table.begin(), table.end(), [](const CO_OBJ& obj) { return obj.Type == CO_TREC_ENABLE; });
+  REQUIRE(at != table.end());
+  const auto use = [&](std::vector<CO_OBJ>& next) {
+    node.call([&] { CODictInit(&node.node.Dict, &node.node, next.data(), static_cast<std::uint16_t>(next.size())); });
+    node.trace();
+  };
+  std::uint8_t other = 1;
+  at->Data = &other;
+  use(table);
+  node.enable = 0;  // the variable of the old table
+  node.record({1});
+  CHECK(CORecorderCount(&node.recorder) == 1);
+  other = 0;
+  node.record({2});
+  CHECK(CORecorderCount(&node.recorder) == 1);
+  std::vector<CO_OBJ> without = table;
+  without.erase(without.begin() + (at - table.begin()));
+  use(without);
+  node.record({3});
+  CHECK(CORecorderCount(&node.recorder) == 2);
+}
+
 TEST_CASE("2400h: 0 stops all recorders and 1 continues them [R6]") {
   RecorderNode node;
   node.record({1});

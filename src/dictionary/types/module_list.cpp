@@ -5,10 +5,13 @@
 #include "co_core.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/place.hpp"
+#include "hal/port.hpp"
 
 namespace {
 
 using namespace co;
+
+constexpr uint16_t most_modules = 254;
 
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) {
   if (uintptr_t{obj->Data} == 0) {
@@ -26,10 +29,16 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t width) {
   if (list->Read == nullptr) {
     return CO_ERR_OBJ_NO_DATA;
   }
+  if (!port::is_initialised(*node)) {
+    return CO_ERR_TYPE_RD;
+  }
   uint16_t value = 0;
   const CO_ERR err = list->Read(node, node->Ext->User, CO_GET_SUB(obj->Key), &value);
   if (err != CO_ERR_NONE) {
     return err;
+  }
+  if (CO_GET_SUB(obj->Key) == 0 && value > most_modules) {
+    return CO_ERR_TYPE_RD;
   }
   if (width == sizeof value) {
     __builtin_memcpy(buffer, &value, sizeof value);

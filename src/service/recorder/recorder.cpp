@@ -8,6 +8,7 @@
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
+#include "dictionary/types/place.hpp"
 #include "wire/bytes.hpp"
 
 #if USE_RECORDER
@@ -168,11 +169,16 @@ int32_t extend(const CO_RECORDER& recorder, uint32_t number, uint32_t bits) {
   return static_cast<int32_t>((number ^ sign) - sign);
 }
 
+// Returns whether CO_TREC_ENABLE forbids samples. Between CODictInit() and on_remap() its variable is not known.
+bool is_disabled(const CO_NODE& node) {
+  const uint8_t* const enable = node.Recorders.Enable;
+  return (node.Pending & event::remap) != 0 || (enable != nullptr && *enable == 0);
+}
+
 CO_ERR sample(CO_RECORDER& recorder) {
   CO_NODE& node = *recorder.Node;
   const uint32_t map = recorder.Config.Map;
-  const bool is_enabled = node.Recorders.Enable == nullptr || *node.Recorders.Enable != 0;
-  if (!is_enabled || map == 0 || recorder.State == idle || node.Nmt.Mode == CO_INVALID) {
+  if (is_disabled(node) || map == 0 || recorder.State == idle || node.Nmt.Mode == CO_INVALID) {
     return CO_ERR_OBJ_STATE;
   }
   CO_OBJ* obj = nullptr;
@@ -290,6 +296,12 @@ void on_mode(CO_NODE& node) {
 }
 
 void on_remap(CO_NODE& node) {
+  node.Recorders.Enable = nullptr;
+  for (unsigned entry = 0; entry < node.Dict.Num; ++entry) {
+    if (node.Dict.Root[entry].Type == CO_TREC_ENABLE) {
+      node.Recorders.Enable = data_of<const uint8_t>(node.Dict.Root[entry]);
+    }
+  }
   for (CO_RECORDER* recorder = node.Recorders.First; recorder != nullptr; recorder = recorder->Next) {
     const CO_OBJ* const obj = dict::find(node.Dict, recorder->Plot.Key);
     if (obj == nullptr || !access::is_open(node, *obj, nullptr)) {
