@@ -338,6 +338,9 @@ void end(CO_SRDO& srdo) {
 
 void change_direction(CO_NODE& node, unsigned number) {
   CO_ASSERT(number < CO_SRDO_N && !is_running(node.Srdo[number]));
+  if (node.Srdo[number].Node == nullptr) {
+    return;  // written by an Init function in CONodeInit(): init() follows
+  }
   const bool exists = direction_of(node, number) != CO_SRDO_NONE;
   change_state(node.Srdo[number], exists ? CO_SRDO_NOT_OPERATIONAL : CO_SRDO_DELETED);
 }
