@@ -39,6 +39,9 @@ CO_ERR read(CO_TPDO& pdo, uint16_t entry, CO_IF_FRM& frame) {
   CO_NODE& node = *pdo.Node;
   CO_OBJ* const obj = object_at(node, entry);
   const CO_ERR err = obj != nullptr ? map_object(node, pdo.Map, *obj) : CO_ERR_OBJ_NOT_FOUND;
+  if (!pdo::has(pdo.Map, pdo::served)) {
+    return pdo::end_of(pdo);  // the Size function has ended the PDO
+  }
   if (err != CO_ERR_NONE) {
     error::report(node, err, obj != nullptr ? obj->Key : 0);
     return err;
