@@ -133,7 +133,9 @@ void run_pending(CO_NODE& node, unsigned what) {
       return;
     }
     event::remove(node, pending & ~unsigned{event::messages});
-    if ((pending & event::configuration) != 0 && (pending & event::resets) == 0 && node.Nmt.Mode != CO_INVALID) {
+    // A reset configures everything, but callbacks before it may still send PDOs, whose objects may have moved.
+    const bool is_due = (pending & event::resets) == 0 || (pending & event::remap) != 0;
+    if ((pending & event::configuration) != 0 && is_due && node.Nmt.Mode != CO_INVALID) {
       reconfigure(node, (pending & event::remap) != 0);
     }
     event::send_deferred(node);
