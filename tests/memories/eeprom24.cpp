@@ -16,9 +16,47 @@ bool put_all(Eeprom24& memory, const std::uint8_t* bytes, std::uint32_t num) {
   return n == num;
 }
 
+// A transfer that the bus does not complete. Bytes behind the first half do not reach the device.
+bool write_faulty(Eeprom24& memory, std::uint8_t device, const std::uint8_t* head, std::uint8_t head_num,
+                  const std::uint8_t* bytes, std::uint32_t num) {
+  const BusFault kind = memory.bus_fault.kind;
+  const bool is_half = kind == BusFault::half || kind == BusFault::half_executed || kind == BusFault::half_reads_ff;
+  const bool is_whole = kind == BusFault::executed || kind == BusFault::executed_low;
+  memory.now += memory.byte_time;
+  if (!is_whole && !(is_half && memory.bus_fault.is_first())) {
+    return false;
+  }
+  const std::uint32_t all = head_num + num;
+  const std::uint32_t sent = is_whole ? all : all / 2;
+  const std::uint32_t of_head = std::min<std::uint32_t>(sent, head_num);
+  if (memory.start(static_cast<std::uint8_t>(device << 1U)) && put_all(memory, head, of_head) &&
+      put_all(memory, bytes, sent - of_head) && kind != BusFault::half && kind != BusFault::half_reads_ff) {
+    memory.stop();
+  } else {
+    memory.lose();
+  }
+  return false;
+}
+
+// A faulty read. Returns true if the bus does not detect the fault.
+bool read_faulty(Eeprom24& memory, std::uint8_t* to, std::uint32_t num, bool is_read) {
+  const BusFault kind = memory.bus_fault.kind;
+  if (kind == BusFault::reads_ff || (kind == BusFault::half_reads_ff && memory.bus_fault.is_first() && is_read)) {
+    std::fill(kind == BusFault::reads_ff ? to : to + num / 2, to + num, std::uint8_t{0xFF});
+    return true;
+  }
+  if (kind != BusFault::executed && kind != BusFault::executed_low) {
+    std::fill(to + num / 2, to + num, std::uint8_t{0x5A});
+  }
+  return false;
+}
+
 bool write(void* ctx, std::uint8_t device, const std::uint8_t* head, std::uint8_t head_num, const std::uint8_t* bytes,
            std::uint32_t num) {
   Eeprom24& memory = model(ctx);
+  if (memory.bus_fault.begins()) {
+    return write_faulty(memory, device, head, head_num, bytes, num);
+  }
   const bool done = memory.start(static_cast<std::uint8_t>(device << 1U)) && put_all(memory, head, head_num) &&
                     put_all(memory, bytes, num);
   memory.stop();
@@ -28,13 +66,14 @@ bool write(void* ctx, std::uint8_t device, const std::uint8_t* head, std::uint8_
 bool read(void* ctx, std::uint8_t device, const std::uint8_t* head, std::uint8_t head_num, std::uint8_t* to,
           std::uint32_t num) {
   Eeprom24& memory = model(ctx);
+  const bool is_faulty = memory.bus_fault.begins();
   const bool done = memory.start(static_cast<std::uint8_t>(device << 1U)) && put_all(memory, head, head_num) &&
                     memory.start(static_cast<std::uint8_t>(device * 2U + 1U));
   for (std::uint32_t n = 0; done && n < num; ++n) {
     to[n] = memory.get(n + 1 < num);
   }
   memory.stop();
-  return done;
+  return is_faulty ? read_faulty(memory, to, num, done) : done;
 }
 
 void wait(void* ctx, std::uint32_t microseconds) {
@@ -188,6 +227,11 @@ void Eeprom24::program() {
       return is_erased ? std::uint8_t{0xFF} : static_cast<std::uint8_t>(byte ^ 0x5AU);
     });
   }
+}
+
+void Eeprom24::lose() {
+  is_selected_ = false;
+  received_ = 0;
 }
 
 void Eeprom24::stop() {

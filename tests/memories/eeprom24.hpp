@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bus_fault.hpp"
 #include "co_nvm_eeprom_i2c.h"
 #include "power.hpp"
 
@@ -30,6 +31,9 @@ class Eeprom24 {
   explicit Eeprom24(const Chip24& chip) : chip_(chip), bytes_(chip.capacity, 0xFF) {}
 
   Power power;
+  BusFaults bus_fault;
+  /// Returns whether the bus reports a fault when it happens, or at the next access that tests the acknowledge.
+  static bool shows(BusFault kind) { return kind != BusFault::reads_ff && kind != BusFault::half_reads_ff; }
   std::vector<std::string> faults;  ///< violations of the rules of the memory and of the bus
   std::uint64_t now = 0;            ///< microseconds
   std::uint32_t byte_time = 23;     ///< duration of a byte, microseconds (9 bits at 400 kbit/s)
@@ -48,6 +52,8 @@ class Eeprom24 {
   std::uint8_t shift_out();         ///< first part of get(): the byte
   void end_byte(bool acknowledge);  ///< second part of get(): the bit after it
   void stop();
+  /// Ends a transfer without a stop condition after an acknowledged byte: the device writes nothing.
+  void lose();
 
   std::uint8_t& byte(std::uint32_t address) { return bytes_.at(address); }
   /// Begins a write cycle without a change, as if the CPU had been reset after a write.

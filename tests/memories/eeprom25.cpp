@@ -48,6 +48,30 @@ void Eeprom25::select(bool selected) {
   index_ = 0;
   received_ = 0;
   is_ignored_ = false;
+  frame_bytes_ = 0;
+  heard_ = UINT32_MAX;
+  is_cut_executed_ = false;
+  is_deaf_ = false;
+  if (bus_fault.begins()) {
+    begin_fault();
+  }
+}
+
+// Begins a faulty access. A lasting fault in the middle of an access is a missing device in the next ones.
+void Eeprom25::begin_fault() {
+  const bool is_low = bus_fault.kind == BusFault::absent_low || bus_fault.kind == BusFault::executed_low;
+  fault_level_ = is_low ? 0x00 : 0xFF;
+  switch (bus_fault.kind) {
+    case BusFault::executed:
+    case BusFault::executed_low: is_deaf_ = true; break;
+    case BusFault::half:
+    case BusFault::half_reads_ff:
+    case BusFault::half_executed:
+      heard_ = bus_fault.is_first() ? half : 0;
+      is_cut_executed_ = bus_fault.is_first() && bus_fault.kind == BusFault::half_executed;
+      break;
+    default: heard_ = 0;
+  }
 }
 
 // Ends a write cycle whose time has elapsed.
@@ -124,14 +148,22 @@ std::uint8_t Eeprom25::transfer(std::uint8_t byte) {
 std::uint8_t Eeprom25::shift_out() {
   ++now;
   ++bus_bytes;
+  ++frame_bytes_;
   if (!is_selected_) {
     faults.emplace_back("transfer without chip select");
   }
   if (is_lost()) {
-    is_ignored_ = true;
-    received_ = 0;
-    return lost_level;
+    if (!is_cut_executed_) {
+      is_ignored_ = true;
+      received_ = 0;
+    }
+    return frame_bytes_ > heard_ ? fault_level_ : lost_level;
   }
+  const std::uint8_t byte = answer();
+  return is_deaf_ ? fault_level_ : byte;
+}
+
+std::uint8_t Eeprom25::answer() {
   end_cycle();
   if (index_ != 0 && instruction_ == read_status) {
     return status();
@@ -159,7 +191,7 @@ void Eeprom25::shift_in(std::uint8_t byte) {
 
 // Executes the instruction at the rising edge of chip select.
 void Eeprom25::deselect() {
-  if (is_lost() || is_ignored_ || index_ == 0) {
+  if ((is_lost() && !is_cut_executed_) || is_ignored_ || index_ == 0) {
     return;
   }
   if (instruction_ == write_enable || instruction_ == write_disable) {

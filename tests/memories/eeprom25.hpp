@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bus_fault.hpp"
 #include "co_nvm_eeprom_spi.h"
 #include "power.hpp"
 
@@ -30,14 +31,17 @@ class Eeprom25 {
   explicit Eeprom25(const Chip25& chip) : chip_(chip), bytes_(chip.capacity, 0xFF) {}
 
   Power power;
-  std::vector<std::string> faults;  ///< violations of the rules of the memory and of the bus
-  std::uint64_t now = 0;            ///< microseconds; a byte takes one
-  std::uint32_t write_time = 0;     ///< duration of a write cycle, microseconds; 0: 90 % of the longest one
-  std::uint64_t cycles = 0;         ///< write cycles begun
-  std::uint64_t bus_bytes = 0;      ///< bytes on the bus
-  std::uint64_t lost_after = 0;     ///< number of bytes on the bus after which the device does not answer; 0: never
-  std::uint8_t lost_level = 0xFF;   ///< byte that is read then
-  bool is_protected = false;        ///< all blocks are protected
+  BusFaults bus_fault;
+  static bool shows(BusFault) { return false; }  ///< SPI has no acknowledgement
+  std::uint32_t half = 1;                        ///< bytes of an access up to a fault in its middle
+  std::vector<std::string> faults;               ///< violations of the rules of the memory and of the bus
+  std::uint64_t now = 0;                         ///< microseconds; a byte takes one
+  std::uint32_t write_time = 0;    ///< duration of a write cycle, microseconds; 0: 90 % of the longest one
+  std::uint64_t cycles = 0;        ///< write cycles begun
+  std::uint64_t bus_bytes = 0;     ///< bytes on the bus
+  std::uint64_t lost_after = 0;    ///< number of bytes on the bus after which the device does not answer; 0: never
+  std::uint8_t lost_level = 0xFF;  ///< byte that is read then
+  bool is_protected = false;       ///< all blocks are protected
 
   void select(bool selected);
   std::uint8_t transfer(std::uint8_t byte);
@@ -55,7 +59,11 @@ class Eeprom25 {
 
  private:
   [[nodiscard]] std::uint32_t cycle_time() const { return write_time != 0 ? write_time : chip_.write_time * 900U; }
-  [[nodiscard]] bool is_lost() const { return power.is_off || (lost_after != 0 && bus_bytes > lost_after); }
+  [[nodiscard]] bool is_lost() const {
+    return power.is_off || (lost_after != 0 && bus_bytes > lost_after) || frame_bytes_ > heard_;
+  }
+  void begin_fault();
+  std::uint8_t answer();
   void end_cycle();
   void decode(std::uint8_t byte);
   void receive(std::uint8_t byte);
@@ -70,6 +78,11 @@ class Eeprom25 {
   bool is_enabled_ = false;
   bool is_selected_ = false;
   std::uint32_t index_ = 0;
+  std::uint32_t frame_bytes_ = 0;     // bytes since the selection, the present one included
+  std::uint32_t heard_ = UINT32_MAX;  // bytes after the selection that reach the device
+  bool is_cut_executed_ = false;      // the device executes the bytes that have reached it
+  bool is_deaf_ = false;              // the bytes of the device do not reach the CPU
+  std::uint8_t fault_level_ = 0xFF;   // byte that is read instead
   std::uint8_t instruction_ = 0;
   bool is_ignored_ = false;
   std::uint32_t address_ = 0;

@@ -2,6 +2,7 @@
 // The driver eeprom_i2c on models of EEPROM 24xx and FRAM.
 #include <doctest/doctest.h>
 
+#include "bus_fault_sweep.hpp"
 #include "eeprom24.hpp"
 #include "memory_check.hpp"
 #include "stored_group.hpp"
@@ -195,6 +196,17 @@ TEST_CASE("eeprom_i2c: a device that is lost while it is read is an error") {
     Eeprom24 memory(lc256);
     memory.lost_after = lost;
     CHECK(driver.Read(memory.context(), 5, read.data(), 20) == 0);
+  }
+}
+
+TEST_CASE("eeprom_i2c: with a fault of the bus at any access, bytes that are reported as written are in the memory") {
+  for (const Chip24* const chip : {&lc16, &lc256, &lc1025, &fram}) {
+    CAPTURE(chip->name);
+    const std::uint32_t at = chip == &lc1025 ? 65500 : 230;
+    Eeprom24 empty(*chip);
+    empty.write_time = 600;
+    CHECK(test_bus_faults(empty, at, 60) >= 100);
+    CHECK(test_erase_faults(empty, at / 128 * 128, 256) >= 100);
   }
 }
 

@@ -2,6 +2,7 @@
 // The driver eeprom_spi on models of EEPROM 25xx and FRAM.
 #include <doctest/doctest.h>
 
+#include "bus_fault_sweep.hpp"
 #include "eeprom25.hpp"
 #include "memory_check.hpp"
 #include "stored_group.hpp"
@@ -21,6 +22,7 @@ const Chip25 chips[] = {
 const Chip25& lc256 = chips[3];
 const Chip25& cat = chips[4];
 const Chip25& fram = chips[8];
+const Chip25& fujitsu = chips[9];
 
 const CO_IF_NVM_DRV_EX& driver = EepromSpiNvmDriver;
 
@@ -197,6 +199,29 @@ TEST_CASE("eeprom_spi: a device that is lost while it is read is an error") {
       memory.lost_level = level;
       REQUIRE(driver.Read(memory.context(), 30, read.data(), 50) == 0);
     }
+  }
+}
+
+TEST_CASE("eeprom_spi: with a fault of the bus at any access, bytes that are reported as written are in the memory") {
+  for (const Chip25* const chip : {&lc256, &cat, &fram, &fujitsu}) {
+    for (const std::uint32_t half : {1U, 4U, 20U}) {
+      CAPTURE(chip->name);
+      CAPTURE(half);
+      Eeprom25 empty(*chip);
+      empty.write_time = 600;
+      empty.half = half;
+      CHECK(test_bus_faults(empty, 230, 60) >= 200);
+      CHECK(test_erase_faults(empty, 192, 128) >= 100);
+    }
+  }
+}
+
+TEST_CASE("eeprom_spi: bytes of protected blocks are not reported as written") {
+  for (const Chip25* const chip : {&lc256, &fram}) {
+    Eeprom25 memory(*chip);
+    memory.is_protected = true;
+    const Bytes bytes = pattern(16, 9);
+    CHECK(driver.Write(memory.context(), 0, bytes.data(), 16) == 0);
   }
 }
 

@@ -103,7 +103,21 @@ bool change_latch(const CO_EEPROM_SPI& eeprom, bool enable) {
 // Returns whether the memory executes instructions. If so, clears the write enable latch.
 bool is_present(const CO_EEPROM_SPI& eeprom) { return change_latch(eeprom, true) && change_latch(eeprom, false); }
 
-// Writes num bytes of one page and waits for the end of the write cycle. The period bytes at from are repeated.
+// Returns whether the memory has the bytes that write_page() has written.
+bool has_bytes(const CO_EEPROM_SPI& eeprom, uint32_t address, const uint8_t* from, uint32_t num, uint32_t period) {
+  const Selected selected(eeprom);
+  selected.send(read_data, address);
+  bool is_same = true;
+  for (uint32_t n = 0; n < num; ++n) {
+    uint8_t byte = 0;
+    selected.receive(&byte, 1);
+    is_same = is_same && byte == from[n % period];
+  }
+  return is_same;
+}
+
+// Writes num bytes of one page, waits for the end of the write cycle and reads the bytes back: SPI has no
+// acknowledgement. The period bytes at from are repeated.
 bool write_page(const CO_EEPROM_SPI& eeprom, uint32_t address, const uint8_t* from, uint32_t num, uint32_t period) {
   if (!await_ready(eeprom) || !change_latch(eeprom, true)) {
     return false;
@@ -117,7 +131,7 @@ bool write_page(const CO_EEPROM_SPI& eeprom, uint32_t address, const uint8_t* fr
       left -= piece;
     }
   }
-  return await_ready(eeprom);
+  return await_ready(eeprom) && has_bytes(eeprom, address, from, num, period);
 }
 
 // Returns the boundary that no write crosses.

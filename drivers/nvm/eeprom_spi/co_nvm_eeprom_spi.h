@@ -9,8 +9,9 @@
 ///     ext.Nvm = &EepromSpiNvmDriver;  ext.NvmCtx = (void*)&eeprom;                   // CO_NODE_EXT
 ///
 /// Writes are divided at the ends of pages. Before each, the driver sets the write enable latch and checks it; after
-/// each, it reads the status until the write cycle has ended, for at most WriteTime and the duration of the transfers.
-/// It also waits before each access, because the CPU may have been reset during a write cycle.
+/// each, it reads the status until the write cycle has ended, for at most WriteTime and the duration of the transfers,
+/// and reads the bytes back. It also waits before each access, because the CPU may have been reset during a write
+/// cycle.
 ///
 /// Device loss. SPI has no acknowledgement: all bytes of a missing device read FFh or 00h. Each access therefore ends
 /// with a test: the status must show that the write enable latch follows the instructions that set and clear it.
