@@ -139,9 +139,11 @@ bool is_blank(const Header& header) {
   return uniform && (header.magic == UINT32_MAX || header.magic == 0);
 }
 
-// Reads the header of a slot. Returns what the slot holds; Found::lost if its header or its CRC is invalid.
+// Reads the header of a slot. Returns what the slot holds; Found::lost if its header or its CRC is invalid. A header
+// that cannot be read is 0 throughout.
 Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Header& header) {
   if (!read(node, start, &header, sizeof header)) {
+    header = {};
     return Found::lost;
   }
   if (is_blank(header)) {
@@ -189,9 +191,12 @@ struct Slots {
 
 // Returns whether the other slot is damaged and was written after the newest valid one, so that its data are lost. A
 // slot whose store was interrupted by a power failure does not count: its header is erased (Found::blank), or still
-// that of its previous record, whose generation is one lower than that of the newest valid slot.
+// that of its previous record, whose generation is one lower than that of the newest valid slot. A header that cannot
+// be read does count.
 bool is_newest_damaged(const Slots& slots) {
-  return slots.other.found == Found::lost && slots.newest.header.generation - slots.other.header.generation != 1;
+  const bool is_unread = slots.other.header.magic == 0;
+  return slots.other.found == Found::lost &&
+         (is_unread || slots.newest.header.generation - slots.other.header.generation != 1);
 }
 
 // The slot that held the newest record of a group when it was loaded or saved last (CO_NODE.ParaNewest): it is not
@@ -303,21 +308,23 @@ bool write_slot(const CO_NODE& node, const Record& record, Slot& slot, const uin
 }
 
 // Writes the slot that does not hold the newest valid record. data: null for the defaults. The generation is one higher
-// than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both.
+// than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both. Reads both slots again
+// afterwards: if the remaining slot could not be read before, its record may be the newer one.
 CO_ERR write_record(CO_NODE& node, const Record& record, const Slots& slots, const uint8_t* data) {
   const bool has_record = is_whole(slots.newest);
   const Slot& target = has_record ? slots.other : slots.newest;
   const uint32_t generation = (has_record ? slots.newest : slots.other).header.generation + 1;
-  Slot slot = {
-      target.start, {magic, record.version, data == nullptr ? defaults : record.size, generation, 0}, Found::lost};
-  Header stored = {};
-  if (write_slot(node, record, slot, data)) {
-    slot.found = read_slot(node, record, slot.start, stored);
-  }
-  if (!is_whole(slot) || stored.crc != slot.header.crc || stored.generation != generation) {
+  Slot slot = {target.start, {magic, record.version, data == nullptr ? defaults : record.size, generation, 0}, {}};
+  if (!write_slot(node, record, slot, data)) {
     return CO_ERR_IF_NVM_WRITE;
   }
-  remember(node, record, slot);
+  const Slot newest = Slots(node, record).newest;
+  const bool is_loaded_next = newest.start == slot.start && is_whole(newest) && newest.header.crc == slot.header.crc &&
+                              newest.header.generation == generation;
+  if (!is_loaded_next) {
+    return CO_ERR_IF_NVM_WRITE;
+  }
+  remember(node, record, newest);
   return CO_ERR_NONE;
 }
 

@@ -274,6 +274,22 @@ TEST_CASE("eeprom_i2c: a loss of power at each write cycle leaves the old or the
   }
 }
 
+TEST_CASE("eeprom_i2c: a fault of the bus at each access of a store leaves the old or the new values") {
+  for (const Chip24* const chip : {&lc16, &lc256, &fram}) {
+    CAPTURE(chip->name);
+    Eeprom24 memory(*chip);
+    memory.write_time = 600;
+    CHECK(disturb_each_store(memory) >= 1000);
+  }
+}
+
+TEST_CASE("eeprom_i2c: a fault of the bus at each access of a start is reported or has no effect") {
+  for (const Chip24* const chip : {&lc16, &lc256, &fram}) {
+    CAPTURE(chip->name);
+    CHECK(disturb_each_start(Eeprom24(*chip)) >= 100);
+  }
+}
+
 TEST_CASE("eeprom_i2c: a lost device is reported when a group is loaded and stored") {
   Eeprom24 memory(lc256);
   StoredGroup node;

@@ -273,6 +273,25 @@ TEST_CASE("eeprom_spi: a loss of power at each write cycle leaves the old or the
   }
 }
 
+TEST_CASE("eeprom_spi: a fault of the bus at each access of a store leaves the old or the new values") {
+  for (const Chip25* const chip : {&lc256, &cat, &fram}) {
+    CAPTURE(chip->name);
+    Eeprom25 memory(*chip);
+    memory.write_time = 600;
+    memory.half = 20;
+    CHECK(disturb_each_store(memory) >= 1000);
+  }
+}
+
+TEST_CASE("eeprom_spi: a fault of the bus at each access of a start is reported or has no effect") {
+  for (const Chip25* const chip : {&lc256, &cat, &fram}) {
+    CAPTURE(chip->name);
+    Eeprom25 memory(*chip);
+    memory.half = 20;
+    CHECK(disturb_each_start(memory) >= 100);
+  }
+}
+
 TEST_CASE("eeprom_spi: a lost device is reported when a group is loaded and stored") {
   for (const std::uint8_t level : {std::uint8_t{0xFF}, std::uint8_t{0x00}}) {
     Eeprom25 memory(lc256);

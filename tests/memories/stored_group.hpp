@@ -10,6 +10,7 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "bus_fault.hpp"
 #include "co_core.h"
 #include "co_para.h"
 #include "power.hpp"
@@ -64,6 +65,7 @@ class StoredGroup {
 
   [[nodiscard]] const Values& second() const { return second_; }
   CO_ERR error = CO_ERR_NONE;  ///< error of boot()
+  unsigned recovered = 0;      ///< groups of which boot() has loaded an older record than the damaged one
 
  private:
   void start(const CO_IF_NVM_DRV_EX& driver, void* ctx) {
@@ -98,6 +100,14 @@ class StoredGroup {
     ext_.Timer = &no_timer;
     ext_.Nvm = &driver;
     ext_.NvmCtx = ctx;
+    static const CO_CALLBACKS callbacks = [] {
+      CO_CALLBACKS table{};
+      table.ParaRecovered = [](CO_NODE*, void* user, const CO_PARA*) { ++static_cast<StoredGroup*>(user)->recovered; };
+      return table;
+    }();
+    ext_.Callbacks = &callbacks;
+    ext_.User = this;
+    recovered = 0;
     CO_NODE_SPEC spec{};
     spec.NodeId = 1;
     spec.Dict = dictionary_;
@@ -168,6 +178,98 @@ std::uint64_t cut_each_store(Model model) {
   REQUIRE(node.boot(model) == old);
   REQUIRE(node.error == CO_ERR_NONE);
   return cuts;
+}
+
+/// Stores values with a fault of the bus at each access, of each kind and duration, then starts the node again with the
+/// bus restored. Requires what cut_each_operation() requires. Returns the number of faults.
+template <class Model>
+std::uint64_t disturb_each_access(const Model& before, const Values& old, const Values& changed, const Values& second) {
+  static StoredGroup node;
+  std::uint64_t faults = 0;
+  for_bus_faults([&](BusFault kind, std::uint64_t duration) {
+    CAPTURE(static_cast<int>(kind));
+    CAPTURE(duration);
+    for (std::uint64_t at = 1;; ++at) {
+      CAPTURE(at);
+      Model model = before;
+      node.boot(model);
+      model.bus_fault = {kind, at, duration};
+      const bool saved = node.save(model, changed) == CO_ERR_NONE;
+      const bool was_faulty = model.bus_fault.has_begun();
+      model.bus_fault = {};
+      const Values found = node.boot(model);
+      const bool is_changed = found == changed;
+      REQUIRE((is_changed || found == old));
+      REQUIRE((is_changed || !saved));
+      REQUIRE(node.second() == second);
+      if (!was_faulty) {
+        REQUIRE(saved);
+        break;
+      }
+      ++faults;
+      REQUIRE(node.save(model, values_of(77)) == CO_ERR_NONE);
+      REQUIRE(node.boot(model) == values_of(77));
+      REQUIRE(node.second() == second);
+    }
+  });
+  return faults;
+}
+
+/// Disturbs the first to the third store of a new memory. Returns the number of faults.
+template <class Model>
+std::uint64_t disturb_each_store(Model model) {
+  static StoredGroup node;
+  node.boot(model);
+  REQUIRE(node.save_second(model, values_of(200)) == CO_ERR_NONE);
+  Values old = StoredGroup::defaults();
+  std::uint64_t faults = 0;
+  for (const std::uint8_t seed : std::initializer_list<std::uint8_t>{10, 0xFF, 30}) {
+    faults += disturb_each_access(model, old, values_of(seed), values_of(200));
+    node.boot(model);
+    REQUIRE(node.save(model, values_of(seed)) == CO_ERR_NONE);
+    old = values_of(seed);
+  }
+  return faults;
+}
+
+/// Starts the node with a fault of the bus at each access. Requires that the groups have values that were stored or
+/// their defaults, that a fault that the bus shows is reported if the values are not the newest ones, and that the next
+/// start has the newest values. A header that reads FFh or 00h throughout is that of an unused slot: not reported.
+/// Returns the number of faults.
+template <class Model>
+std::uint64_t disturb_each_start(Model model) {
+  static StoredGroup node;
+  node.boot(model);
+  REQUIRE(node.save_second(model, values_of(200)) == CO_ERR_NONE);
+  std::uint64_t faults = 0;
+  for (const std::uint8_t seed : std::initializer_list<std::uint8_t>{10, 20, 30, 40}) {
+    const Values old = node.boot(model);
+    REQUIRE(node.save(model, values_of(seed)) == CO_ERR_NONE);
+    for_bus_faults([&](BusFault kind, std::uint64_t duration) {
+      CAPTURE(static_cast<int>(seed));
+      CAPTURE(static_cast<int>(kind));
+      CAPTURE(duration);
+      bool was_faulty = true;
+      for (std::uint64_t at = 1; was_faulty; ++at) {
+        CAPTURE(at);
+        Model disturbed = model;
+        disturbed.bus_fault = {kind, at, duration};
+        const Values found = node.boot(disturbed);
+        was_faulty = disturbed.bus_fault.has_begun();
+        faults += was_faulty ? 1 : 0;
+        const bool is_newest = found == values_of(seed) && node.second() == values_of(200);
+        REQUIRE((found == values_of(seed) || found == old || found == StoredGroup::defaults()));
+        REQUIRE((node.second() == values_of(200) || node.second() == StoredGroup::defaults()));
+        const bool is_reported = node.error != CO_ERR_NONE || node.recovered != 0 || USE_CALLBACKS == 0;
+        REQUIRE((is_newest || is_reported || !Model::shows(kind)));
+        disturbed.bus_fault = {};
+        REQUIRE(node.boot(disturbed) == values_of(seed));
+        REQUIRE(node.second() == values_of(200));
+        REQUIRE(node.error == CO_ERR_NONE);
+      }
+    });
+  }
+  return faults;
 }
 
 }  // namespace test
