@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 # Functions shared by the lanes fuzz, gcc and codict.
-stack_fuzz_targets=(node sdo_client sdo_server)
+stack_fuzz_targets=(callbacks node sdo_client sdo_server)
 tool_fuzz_targets=(eds json network xdd)
 fuzz_targets=("${stack_fuzz_targets[@]}" "${tool_fuzz_targets[@]}")
 

@@ -12,8 +12,6 @@ Source source;
 
 namespace {
 
-constexpr std::uint32_t long_value = 20;
-
 CO_ERR answer_of(CO_OBJ* obj, CO_NODE* node) {
   const CO_ERR err = mood();
   if (err != CO_ERR_NONE) {

@@ -21,6 +21,7 @@ std::uint32_t chance(std::uint32_t limit);  ///< returns a random number below \
 /// \}
 
 inline constexpr std::uint32_t large_domain = 2000;  ///< bytes; larger than the buffer of an SDO server
+inline constexpr std::uint32_t long_value = 20;      ///< bytes; longest value of the application types
 
 /// Memory block of exactly the object's size: the address sanitizer detects an access to the byte behind it.
 using Memory = std::unique_ptr<std::uint8_t[]>;
