@@ -208,6 +208,8 @@ class Bench {
       set_multiplexer(frame, key_of(CO_GET_WORD(&frame, 1)));
     } else if (id == 0x587 || id == 0x588) {
       set_multiplexer(frame, requests_[id - 0x587].key);
+    } else if (id == 0x7E4 && (frame.Data[0] & 1U) != 0) {
+      frame.Data[0] = node_.Lssm.Answer;
     } else if (id == 0 && kind < 0x60) {
       constexpr std::uint8_t commands[] = {1, 2, 128, 129, 130};
       frame.Data[0] = commands[frame.Data[0] % std::size(commands)];
@@ -315,7 +317,7 @@ class Bench {
   }
   void send_mpdo() {
     const std::uint8_t to = below(8);
-    COTPdoSendTo(&node_, below(CO_TPDO_N), to, any_key(), input_.byte());
+    COTPdoSendTo(&node_, below(4), to, any_key(), input_.byte());
   }
 
   // Replaces the table, or changes it at its place.

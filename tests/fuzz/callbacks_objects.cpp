@@ -102,10 +102,12 @@ std::vector<CO_OBJ> callbacks_dictionary(Objects& objects, ServiceObjects& servi
     network.rpdo[n].cob_id &= 0x7FFFFFFFU;
     network.tpdo[n].cob_id &= 0x7FFFFFFFU;
   }
-  network.rpdo[3].number = 0xFF;  // multiplex PDOs
-  network.rpdo[3].type = 255;
-  network.tpdo[3].number = 0xFE;
-  network.tpdo[3].type = 254;
+  // Multiplex PDOs with source (FEh) and destination addressing (FFh); the first PDOs map an application type, too.
+  network.rpdo[2].number = network.tpdo[3].number = 0xFE;
+  network.rpdo[3].number = network.tpdo[2].number = 0xFF;
+  network.rpdo[3].type = network.tpdo[3].type = 254;
+  network.rpdo[0].number = network.tpdo[0].number = 3;
+  network.rpdo[0].map[2] = network.tpdo[0].map[2] = 0x22000020;
   std::vector<CO_OBJ> table = dictionary(objects);
   add_services(table, services);
   std::sort(table.begin(), table.end(),
