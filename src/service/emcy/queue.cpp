@@ -78,9 +78,11 @@ void send_message(CO_NODE& node, const CO_EMCY_MSG& msg) {
   event::defer(node, event::send_emcy);
 }
 
-// Messages that were queued while there is no identifier are forgotten, not dropped.
+// Messages that were queued while there is no identifier are forgotten, not dropped. A callback of another service may
+// report an error in a state that forbids messages, before on_mode() has dropped those of the last state.
 void send_waiting(CO_NODE& node) {
-  if (node.Emcy.Waiting == 0 || tmr::is_running(node.Emcy.Tmr)) {
+  const bool is_allowed = event::is_allowed(node, CO_EMCY_ALLOWED);
+  if (node.Emcy.Waiting == 0 || tmr::is_running(node.Emcy.Tmr) || !is_allowed) {
     return;
   }
   const uint32_t id = identifier(node);
