@@ -98,6 +98,15 @@ bool replace(CO_NODE& node, const CO_IF_FRM& frame) {
   return waiting != nullptr;
 }
 
+// Returns whether an identifier is that of the responses of an SDO server.
+bool is_response(const CO_NODE& node, uint32_t identifier) {
+  bool is_one = false;
+  for (const CO_SDO& server : node.Sdo) {
+    is_one = is_one || server.TxId == identifier;
+  }
+  return is_one;
+}
+
 }  // namespace
 
 void init(CO_NODE& node) {
@@ -201,9 +210,24 @@ void clear(CO_NODE& node) {
   node.TxQueue.Fixed = 0;
 }
 
-void fix_order(CO_NODE& node) {
-  if (node.Nmt.Mode != CO_INIT) {  // queued frames of Initialisation follow the boot-up message
-    node.TxQueue.Fixed = node.TxQueue.Num;
+void keep_responses(CO_NODE& node) {
+  CO_TX_QUEUE& queue = node.TxQueue;
+  unsigned kept = 0;
+  for (unsigned n = 0; n < queue.Num; ++n) {
+    if (is_response(node, queue.Frame[n].Identifier)) {
+      queue.Frame[kept++] = queue.Frame[n];
+    } else {
+      count(node.Count.Dropped);
+    }
+  }
+  queue.Num = static_cast<uint16_t>(kept);
+  queue.Fixed = queue.Num;
+}
+
+void drop_behind_responses(CO_NODE& node) {
+  CO_TX_QUEUE& queue = node.TxQueue;
+  for (; queue.Num > queue.Fixed; --queue.Num) {
+    count(node.Count.Dropped);
   }
 }
 

@@ -88,6 +88,33 @@ TEST_CASE("EMCY: a reset drops messages queued for the inhibit time, which start
 
 #endif
 
+TEST_CASE("EMCY: of the frames that wait at a reset only SDO responses survive, no EMCY comes before the boot-up") {
+  for (const CO_NMT_RESET type : {CO_RESET_NODE, CO_RESET_COM}) {
+    for (const bool is_raised_last : {false, true}) {
+      Fixture node(Setup().heartbeat(10).emergencies({{CO_EMCY_REG_TEMP, 0x4200}, {CO_EMCY_REG_VOLTAGE, 0x3100}}));
+      node.can.refuse_all();
+      node.call([&] { COEmcySet(&node.node.Emcy, 0, nullptr); });
+      node.after(10ms);
+      node.rx("601#4018100100000000");
+      node.call([&] {
+        CO_IF_FRM own = frame("123#01");
+        COIfCanSend(&node.node.If, &own);
+      });
+      callbacks().mode_change = [&](CO_NMT*, CO_MODE to) {
+        if (to == CO_INIT && is_raised_last) COEmcySet(&node.node.Emcy, 1, nullptr);
+      };
+      node.call([&] { CONmtReset(&node.node.Nmt, type); });
+      node.can.accept_all();
+      node.loop();
+      const std::vector<std::string> frames = node.frames();
+      REQUIRE(frames.size() >= 2);
+      CHECK(frames[0] == "581#4318100111111111");
+      CHECK(frames[1] == "701#00");
+      for (std::size_t n = 2; n < frames.size(); ++n) CHECK(frames[n].substr(0, 4) == "081#");
+    }
+  }
+}
+
 TEST_CASE("EMCY: a reset by the application has the effect of one by the NMT master") {
   EmcyNode node;
   disturb(node);

@@ -213,11 +213,16 @@ TEST_CASE("reset: reset node and reset communication at any time give the state 
 }
 
 TEST_CASE(
-    "reset: a reset by the application at any time sends queued frames and gives the state after power-on [T14]") {
+    "reset: a reset by the application at any time sends queued responses and gives the state after power-on [T14]") {
   for (const CO_NMT_RESET reset : {CO_RESET_NODE, CO_RESET_COM}) {
     CAPTURE(reset);
     at_every_step([&](Fixture& node, const Scenario& scenario) {
-      const std::size_t waiting = node->TxQueue.Num;
+      const CO_TX_QUEUE& queue = node->TxQueue;
+      const auto is_response = [&](const CO_IF_FRM& frm) {
+        return std::any_of(std::begin(node->Sdo), std::end(node->Sdo),
+                           [&](const CO_SDO& server) { return server.TxId == frm.Identifier; });
+      };
+      const auto waiting = static_cast<std::size_t>(std::count_if(queue.Frame, queue.Frame + queue.Num, is_response));
       node.call([&] { CONmtReset(&node->Nmt, reset); });
       node.can.accept_all();
       node.loop();
