@@ -18,21 +18,25 @@ enum State : uint8_t {
   running = 0x01,   // the NMT state is not CO_INVALID
   serving = 0x02,   // a frame, a reset, … is processed: requests of callbacks and type functions are deferred
   changing = 0x04,  // the NMT state is being changed; CONmtModeChange() may be running
+  mapping = 0x08,   // the mapping of a PDO is being resolved; a Size function may be running
 };
 [[nodiscard]] inline bool is_serving(const CO_NODE& node) { return (node.State & serving) != 0; }
 
-// Scope in which the node is serving: requests are deferred. Scopes may nest.
-class Serving {
+// Scope in which a bit of CO_NODE.State is set. Scopes may nest.
+template <State bit>
+class Scope {
  public:
-  [[gnu::always_inline]] explicit Serving(CO_NODE& node) : node_(node), before_(node.State) { node.State |= serving; }
-  Serving(const Serving&) = delete;
-  Serving& operator=(const Serving&) = delete;
-  [[gnu::always_inline]] ~Serving() { node_.State &= static_cast<uint8_t>(before_ | ~serving); }
+  [[gnu::always_inline]] explicit Scope(CO_NODE& node) : node_(node), before_(node.State) { node.State |= bit; }
+  Scope(const Scope&) = delete;
+  Scope& operator=(const Scope&) = delete;
+  [[gnu::always_inline]] ~Scope() { node_.State &= static_cast<uint8_t>(before_ | ~bit); }
 
  private:
   CO_NODE& node_;
   uint8_t before_;
 };
+using Serving = Scope<serving>;  // requests are deferred
+using Mapping = Scope<mapping>;
 
 // Deferred work (bits of CO_NODE.Pending). It runs at the end of the API function that has caused it; if that was
 // called while a frame is processed, after the frame was answered. Order: configuration, EMCY messages, TPDOs, resets.

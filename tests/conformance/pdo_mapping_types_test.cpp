@@ -296,6 +296,38 @@ TEST_CASE("PDO layout: an application-defined type gets one Read or Write of its
   }
 }
 
+// Attempts of a Size function to map a PDO.
+std::vector<CO_ERR> attempts;
+
+std::uint32_t size_that_maps(CO_OBJ*, CO_NODE* node, std::uint32_t) {
+  const OutsideStack outside;
+  for (const std::uint16_t map : {0x1600, 0x1A00}) {
+    attempts.push_back(CODictWrByte(&node->Dict, CO_DEV(map, 0), 0));
+    attempts.push_back(CODictWrLong(&node->Dict, CO_DEV(map, 1), 0x22010108));
+    attempts.push_back(CODictWrByte(&node->Dict, CO_DEV(map - 0x200, 2), 254));
+    attempts.push_back(CODictWrLong(&node->Dict, CO_DEV(map - 0x200, 1), 0x80000281));
+  }
+  return 1;
+}
+
+CO_ERR read_one(CO_OBJ*, CO_NODE*, void* buffer, std::uint32_t) {
+  *static_cast<std::uint8_t*>(buffer) = 0x55;
+  return CO_ERR_NONE;
+}
+
+TEST_CASE("PDO layout: while a mapping is resolved a Size function cannot map a PDO") {
+  const CO_OBJ_TYPE type = {size_that_maps, nullptr, read_one, nullptr, nullptr};
+  PdoTable table;
+  table.tpdo[0].on(0x40000181, 255, {0x22010108, 0x23000008, 0x22020110});
+  PdoNode node(table, [&](Setup& setup) { setup.with({CO_KEY(0x2300, 0, CO_OBJ____PR_), &type, 0}); });
+  node.start();
+  CHECK(node.remap_tpdo(0, {0x22010208, 0x23000008, 0x22020210}, 0x40000181) == 0);
+  CHECK(attempts.size() >= 16);
+  for (const CO_ERR err : attempts) CHECK(err == CO_ERR_OBJ_STATE);
+  node.trigger(0);
+  node.tx("181#21552122");
+}
+
 TEST_CASE("PDO layout: a BOOLEAN accepts only 0 and 1 from an RPDO") {
   PdoNode node;
   node.start();

@@ -272,6 +272,30 @@ TEST_CASE("SRDO faults: all SRDOs have ended before a callback reports that the 
   node.tx({"081#008211000001130B", "081#008211000002130B"});
 }
 
+TEST_CASE("SRDO faults: at the end of Operational a callback may delete an SRDO, all of which have ended [SR14]") {
+  for (const char* const end : {"000#8001", "000#0201", "000#8201"}) {
+    SrdoTable table;
+    table.srdo[0].send(0x109, pair_of_3);
+    table.srdo[1].send(0x10B, pair_of_3);
+    SrdoNode node(table);
+    node.start();
+    node.after(60ms);
+    node.trace();
+    node.take_changes();
+    std::vector<SrdoNode::Change> changes;
+    callbacks().srdo_change = [&](CO_NODE* of, std::uint8_t number, CO_SRDO_STATE to) {
+      changes.emplace_back(number, to);
+      CHECK(COSrdoGetState(of, 0) == CO_SRDO_NOT_OPERATIONAL);
+      if (number == 0) CHECK(CODictWrByte(&of->Dict, CO_DEV(0x1302, 1), 0) == CO_ERR_NONE);
+    };
+    node.rx(end);
+    node.trace();
+    const std::vector<SrdoNode::Change> expected = {{0, CO_SRDO_NOT_OPERATIONAL}, {1, CO_SRDO_DELETED}};
+    CHECK(changes == expected);
+    CHECK(node.state(1) == CO_SRDO_DELETED);
+  }
+}
+
 TEST_CASE("SRDO faults: the callback may leave Operational and then no EMCY is sent [SR14]") {
   Established node;
   callbacks().srdo_change = [&](CO_NODE* of, std::uint8_t, CO_SRDO_STATE to) {

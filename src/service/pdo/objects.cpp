@@ -60,6 +60,10 @@ bool read_before(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& number, uint32_t
   return size == sizeof before && number.Read(&obj, &node, &before, size) == CO_ERR_NONE;
 }
 
+// Returns whether a Size function of a mapped object is the caller: what it writes could not be told from what is being
+// resolved.
+bool is_mapping(const CO_NODE& node) { return (node.State & event::mapping) != 0; }
+
 template <class T>
 T value_in(const void* buffer) {
   T value;
@@ -84,6 +88,9 @@ bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
 }
 
 CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (is_mapping(*node)) {
+    return CO_ERR_OBJ_STATE;
+  }
   if (size != sizeof(uint32_t)) {
     return CO_ERR_BAD_ARG;
   }
@@ -111,6 +118,9 @@ bool fits_mapping(CO_NODE& node, const CO_OBJ& obj, uint8_t type) {
 }
 
 CO_ERR write_type(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (is_mapping(*node)) {
+    return CO_ERR_OBJ_STATE;
+  }
   uint8_t before = 0;
   if (!read_before(*obj, *node, COTInt8, size, before)) {
     return CO_ERR_BAD_ARG;
@@ -168,6 +178,9 @@ CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 // Writes the number of mapped objects. If the mapping cannot be resolved, the write is refused and the number becomes
 // 0. Writing the present number does not require flag P of the objects, because the mapping may be the designer's.
 CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (is_mapping(*node)) {
+    return CO_ERR_OBJ_STATE;
+  }
   uint8_t before = 0;
   if (!read_before(*obj, *node, COTInt8, size, before)) {
     return CO_ERR_BAD_ARG;
@@ -185,6 +198,9 @@ CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 }
 
 CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (is_mapping(*node)) {
+    return CO_ERR_OBJ_STATE;
+  }
   if (size != sizeof(uint32_t)) {
     return CO_ERR_BAD_ARG;
   }
@@ -194,7 +210,11 @@ CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_OBJ_ACC;
   }
   const auto value = value_in<uint32_t>(buffer);
-  const CO_ERR err = value == 0 ? CO_ERR_NONE : pdo::check(*node, direction_of(*obj), value, MappedBy::network);
+  CO_ERR err = CO_ERR_NONE;
+  if (value != 0) {
+    const event::Mapping scope(*node);
+    err = pdo::check(*node, direction_of(*obj), value, MappedBy::network);
+  }
   return err == CO_ERR_NONE ? COTInt32.Write(obj, node, buffer, size) : err;
 }
 

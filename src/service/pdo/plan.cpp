@@ -285,7 +285,9 @@ CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy auth
                                                                                          : CO_ERR_OBJ_MAP_TYPE;
 }
 
-Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author) {
+namespace {
+
+Resolved resolve_entries(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author) {
   const Direction direction = direction_of(index);
   unsigned bits = 0;
   uint8_t fitting = 0;  // entries that fit completely into the frame
@@ -324,6 +326,13 @@ Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, M
   }
   map.Length = static_cast<uint8_t>(bits / unit);
   return {CO_ERR_NONE, 0};
+}
+
+}  // namespace
+
+Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author) {
+  const event::Mapping scope(node);
+  return resolve_entries(node, index, num, map, author);
 }
 
 CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {

@@ -26,7 +26,7 @@ enum Flag : uint8_t {
   failed = 0x08,     // Fault::srdo is raised
   refused = 0x10,    // Fault::srdo_configuration is raised
   routed = 0x20,     // consumer: the routes of its identifiers exist
-  halted = 0x40,     // ended by halt(), which the callback does not know yet
+  halted = 0x40,     // ended, which the callback does not know yet
 };
 
 bool has(const CO_SRDO& srdo, unsigned flags) { return (srdo.Flags & flags) != 0; }
@@ -318,6 +318,17 @@ void begin_all(CO_NODE& node) {
   }
 }
 
+// Ends all SRDOs that run, before a callback can access one of them that still does. The callbacks follow.
+void halt_all(CO_NODE& node, CO_SRDO_STATE state) {
+  for (CO_SRDO& srdo : node.Srdo) {
+    if (is_running(srdo)) {
+      stop(srdo);
+      set(srdo, halted);
+      srdo.State = state;
+    }
+  }
+}
+
 // Ends an SRDO when Operational is left.
 void end(CO_SRDO& srdo) {
   const uint32_t index = first_communication + number_of(srdo);
@@ -328,8 +339,11 @@ void end(CO_SRDO& srdo) {
   if (has(srdo, refused)) {
     event::resolve(*srdo.Node, Fault::srdo_configuration, index);
   }
+  const bool was_halted = has(srdo, halted);
   clear(srdo, failed | refused | halted);
-  if (srdo.State != CO_SRDO_DELETED) {
+  if (was_halted && srdo.State == CO_SRDO_NOT_OPERATIONAL) {
+    callback::change_srdo(*srdo.Node, static_cast<uint8_t>(number_of(srdo)), CO_SRDO_NOT_OPERATIONAL);
+  } else if (srdo.State != CO_SRDO_DELETED) {
     change_state(srdo, CO_SRDO_NOT_OPERATIONAL);
   }
 }
@@ -365,6 +379,7 @@ void on_mode(CO_NODE& node) {
     begin_all(node);
     return;
   }
+  halt_all(node, CO_SRDO_NOT_OPERATIONAL);
   for (CO_SRDO& srdo : node.Srdo) {
     if (srdo.Node != nullptr) {
       end(srdo);
@@ -381,15 +396,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   return true;
 }
 
-void halt(CO_NODE& node) {
-  for (CO_SRDO& srdo : node.Srdo) {
-    if (is_running(srdo)) {
-      stop(srdo);
-      set(srdo, halted);
-      srdo.State = CO_SRDO_ERR_INTERNAL;
-    }
-  }
-}
+void halt(CO_NODE& node) { halt_all(node, CO_SRDO_ERR_INTERNAL); }
 
 void report_halted(CO_NODE& node) {
   for (CO_SRDO& srdo : node.Srdo) {
