@@ -120,6 +120,8 @@ std::uint64_t cut_at_each_step(const Device& before, const Values& old, const Ch
   std::uint64_t cuts = 0;
   for (std::uint64_t step = 1;; ++step) {
     Device device = before;
+    device.boot();  // the node knows which slot of this memory is the newest
+    device.nvm.steps = 0;
     device.nvm.cut_at = step;
     device.nvm.partial_write = partial_write;
     const bool done = change.run(device) == CO_ERR_NONE;

@@ -10,7 +10,7 @@ switches=(USE_CALLBACKS=0 USE_DICT_CHECK=0 USE_FAST_PATHS=0 USE_CSDO=0 USE_SDO_B
   USE_LED=1 USE_LSS=0 USE_LSS_MASTER=1 USE_PARA=0 USE_RECORDER=1 USE_REAL_TIME=1)
 
 lane() {
-  local targets=(lexican_slave "${switches[@]/#/lexican_}")
+  local targets=(lexican "${switches[@]/#/lexican_}")
   targets=("${targets[@]/=/_}")
   choose_cpu m0plus
   build_m0plus -DLEXICAN_SIZES=ON -DLEXICAN_SWITCHES="$(IFS=';'; echo "${switches[*]}")" && size_of_switches || return
