@@ -101,10 +101,10 @@ CO_CSDO* COCSdoFind(struct CO_NODE_T* node, uint8_t num) CO_NEEDS(USE_CSDO);
 CO_ERR COCSdoRequestUpload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                            uint32_t timeout) CO_NEEDS(USE_CSDO);
 
-/// Starts to write \a size bytes of \a buf to the object \a key of the server. The parameters are those of
-/// COCSdoRequestUpload().
+/// Starts to write \a size bytes of \a buf to the object \a key of the server; 0 bytes empty a string or a domain. The
+/// parameters are those of COCSdoRequestUpload().
 /// \retval CO_ERR_NONE         the transfer has started; \a callback will be called once. On an error it is not called
-/// \retval CO_ERR_BAD_ARG      \a csdo, \a buf or \a callback is null, or \a size is 0
+/// \retval CO_ERR_BAD_ARG      \a csdo, \a buf or \a callback is null
 /// \retval CO_ERR_SDO_OFF      the client is not configured, or the NMT state does not allow SDO
 /// \retval CO_ERR_SDO_BUSY     a transfer is in progress
 /// \retval CO_ERR_IF_CAN_SEND  the transmit queue is full

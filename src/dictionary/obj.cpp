@@ -68,8 +68,7 @@ CO_ERR COObjRdBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t si
 
 CO_ERR COObjWrBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
   const bool is_ready = is_accessible(obj, node) && buffer != nullptr && port::is_initialised(*node);
-  return is_ready ? obj::write_for_application(*obj, *node, buffer, size)
-                                                       : CO_ERR_BAD_ARG;
+  return is_ready ? obj::write_for_application(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
 }
 
 CO_ERR COObjRdValue(CO_OBJ* obj, CO_NODE_T* node, void* value, uint8_t width) {

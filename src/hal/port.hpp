@@ -10,13 +10,15 @@ namespace co::port {
 // Extension of a node that was initialised without one, or whose extension cannot be used.
 extern const CO_NODE_EXT no_extension;
 
-// Returns whether CONodeInit() was called: otherwise the node has neither an extension nor drivers, and functions of the
-// API have no effect.
+// Returns whether CONodeInit() was called: otherwise the node has neither an extension nor drivers, and functions of
+// the API have no effect.
 [[nodiscard]] inline bool is_initialised(const CO_NODE& node) { return node.Ext != nullptr; }
 
 #if USE_OD
 // Returns the index of co_od.h; null: none.
-[[nodiscard]] inline struct OD_T_* index_of(const CO_NODE& node) { return is_initialised(node) ? node.Ext->Od : nullptr; }
+[[nodiscard]] inline struct OD_T_* index_of(const CO_NODE& node) {
+  return is_initialised(node) ? node.Ext->Od : nullptr;
+}
 #endif
 
 // Gives the node drivers that do nothing: it could not be initialised, and API calls of the application have no effect.

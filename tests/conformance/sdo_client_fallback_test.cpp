@@ -49,7 +49,64 @@ TEST_CASE("SDO client: uploads into buffers of up to 28 bytes are normal, into l
   }
 }
 
+TEST_CASE("SDO client: an abort of an initiate counts with the multiplexer 0 or the code 0504 0001h, too") {
+  struct Case {
+    const char* abort;
+    std::uint32_t code;  // 0: the client waits
+  };
+  for (const Case& one : {Case{"585#8000000000000206", 0x06020000}, Case{"585#8000100001000405", 0x05040001},
+                          Case{"585#8000100000000206", 0}, Case{"585#8001200500000206", 0}}) {
+    CAPTURE(std::string(one.abort));
+    for (const bool is_upload : {false, true}) {
+      SdoClient node;
+      is_upload ? node.start_upload(0x2000, 5, 4) : node.start_download(0x2000, 5, {1, 2, 3, 4});
+      node.frames();
+      node.rx(one.abort);
+      node.silent();
+      one.code != 0 ? static_cast<void>(node.ended(one.code)) : node.goes_on();
+      if (one.code == 0) {
+        node.cancel();
+        node.frames();
+        node.ended(CO_SDO_ERR_TOS_LOCAL);
+      }
+    }
+  }
+}
+
+TEST_CASE("SDO client: after the first answer an abort ends the transfer, whatever its multiplexer") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 20);
+  node.frames();
+  node.rx("585#4100200514000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#8000000000000206");
+  node.silent();
+  node.ended(0x06020000);
+}
+
+TEST_CASE("SDO client: a download of 0 bytes is sent in a segment") {
+  SdoClient node;
+  node.start_download(0x2000, 5, {});
+  node.tx("605#2100200500000000");
+  node.rx("585#6000200500000000");
+  node.tx("605#0F00000000000000");
+  node.rx("585#2000000000000000");
+  node.silent();
+  node.ended(0);
+}
+
 #if USE_CSDO_BLOCK
+
+TEST_CASE("SDO client: a server without block transfer refuses with a stale multiplexer: segments follow at once") {
+  SdoClient node;
+  node.start_upload(0x1009, 0, 100);
+  node.tx("605#A40910007F1C0000");
+  node.rx("585#8000100001000405");
+  node.goes_on();
+  node.tx("605#4009100000000000");
+  node.rx("585#4309100031323334");
+  node.has_read({0x31, 0x32, 0x33, 0x34});
+}
 
 constexpr const char* no_block[] = {"585#8000200501000405", "585#8000200500000008"};
 

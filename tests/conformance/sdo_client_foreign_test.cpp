@@ -22,6 +22,12 @@ std::vector<std::string> initiate_answers(const std::string& multiplexer) {
 // Multiplexers of other objects than 2000h:05.
 constexpr const char* others[] = {"002006", "002004", "002105", "002205", "012005", "000000", "FFFFFF", "200005"};
 
+// Returns whether an abort counts for an initiate of any object: with index 0, or 0504 0001h.
+bool is_abort_of_any(const std::string& answer) {
+  return answer.compare(4, 2, "80") == 0 &&
+         (answer.compare(6, 6, "000000") == 0 || answer.compare(12, 8, "01000405") == 0);
+}
+
 TEST_CASE("SDO client: an initiate answer or abort for another object is ignored before the first answer [C1]") {
   for (const ClientState& state : client_states()) {
     if (!awaits_initiate(state)) continue;
@@ -31,6 +37,7 @@ TEST_CASE("SDO client: an initiate answer or abort for another object is ignored
     for (const char* other : others) {
       for (const std::string& answer : initiate_answers(other)) {
         CAPTURE(answer);
+        if (is_abort_of_any(answer)) continue;
         node.rx(answer);
         node.silent();
         node.goes_on();
@@ -73,7 +80,7 @@ TEST_CASE("SDO client: an abort for another object ends a transfer after its fir
 // Frames that a slow server may send for the transfer of 2000h:05 after its time-out.
 constexpr const char* late[] = {
     "585#4300200511223344", "585#410020050E000000", "585#6000200500000000", "585#0001020304050607",
-    "585#1108090A0B0C0D0E", "585#2000000000000000", "585#3000000000000000", "585#8000200501000405",
+    "585#1108090A0B0C0D0E", "585#2000000000000000", "585#3000000000000000", "585#8000200500000008",
     "585#C600200528000000", "585#A40020057F000000", "585#0208090A0B0C0D0E", "585#C9C38B0000000000",
     "585#A2047F0000000000", "585#A100000000000000",
 };
@@ -140,6 +147,7 @@ void check_ignores_others(SdoClient& node) {
     answers.push_back("585#80" + std::string(other) + "00000008");
     for (const std::string& answer : answers) {
       CAPTURE(answer);
+      if (is_abort_of_any(answer)) continue;
       node.rx(answer);
       node.silent();
       node.goes_on();
@@ -147,7 +155,7 @@ void check_ignores_others(SdoClient& node) {
   }
 }
 
-TEST_CASE("SDO client: only an abort for its object makes a block upload be repeated [C1]") {
+TEST_CASE("SDO client: 0504 0001h, or 0800 0000h for its object, makes a block upload be repeated [C1]") {
   for (const char* refusal : {"585#8000200501000405", "585#8000200500000008"}) {
     SdoClient node;
     node.start_upload(0x2000, 5, 29);
@@ -165,7 +173,7 @@ TEST_CASE("SDO client: only an abort for its object makes a block upload be repe
   }
 }
 
-TEST_CASE("SDO client: only an abort for its object makes a block download be repeated [C1]") {
+TEST_CASE("SDO client: 0504 0001h, or 0800 0000h for its object, makes a block download be repeated [C1]") {
   for (const char* refusal : {"585#8000200501000405", "585#8000200500000008"}) {
     SdoClient node;
     node.start_download(0x2000, 5, counted(29));

@@ -20,7 +20,7 @@ void put_segment(const CO_CSDO& client, CO_IF_FRM& request) {
 
 uint32_t download_accepted(Step& step) {
   CO_CSDO& client = step.client;
-  if (client.Size <= wire::expedited_bytes) {
+  if (is_expedited(client)) {
     client.Num = client.Size;
     step.silent = true;
     step.done = true;

@@ -67,7 +67,7 @@ uint32_t write_all(CO_CSDO& client, CO_OBJ& obj) {
       err = obj::write(obj, node, client.Buf, 0);
     }
   }
-  if (err == CO_ERR_NONE) {
+  if (err == CO_ERR_NONE && client.Size != 0) {
     err = obj::write(obj, node, from, client.Size);
   }
   client.Num = client.Size;

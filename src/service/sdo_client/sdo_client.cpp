@@ -77,9 +77,14 @@ constexpr Transition<Response, Service> rows[] = {
 
 constexpr Machine<State, rows> machine(refuse_response);
 
-// Returns whether the response to an initiate request names another object: it belongs to a previous transfer.
+// Returns whether the response to an initiate request names another object: it belongs to a previous transfer. Servers
+// that do not know a request abort it with index 0, or with the object of their last transfer.
 bool is_for_another(const CO_CSDO& client, const CO_IF_FRM& frame) {
-  return (in(state_of(client)) & initiated) != 0 && wire::multiplexer(frame) != client.Key;
+  const uint32_t key = wire::multiplexer(frame);
+  if ((in(state_of(client)) & initiated) == 0 || key == client.Key) {
+    return false;
+  }
+  return frame.Data[0] != wire::abort_command || (key != 0 && wire::get_high(frame) != CO_SDO_ERR_CMD);
 }
 
 // Returns the kind of a response. Segments of a block have no command specifier: the state decides.
@@ -127,8 +132,8 @@ CO_ERR start(CO_CSDO& client, uint32_t timeout) {
   return send_initiate(client);
 }
 
-CO_ERR check(CO_CSDO* client, const uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback) {
-  if (client == nullptr || client->Node == nullptr || buf == nullptr || callback == nullptr || size == 0) {
+CO_ERR check(CO_CSDO* client, const uint8_t* buf, bool has_size, CO_CSDO_CALLBACK_T callback) {
+  if (client == nullptr || client->Node == nullptr || buf == nullptr || callback == nullptr || !has_size) {
     return CO_ERR_BAD_ARG;
   }
   if (client->State == CO_CSDO_STATE_BUSY) {
@@ -141,7 +146,7 @@ CO_ERR check(CO_CSDO* client, const uint8_t* buf, uint32_t size, CO_CSDO_CALLBAC
 
 CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                uint32_t timeout, uint8_t flags) {
-  const CO_ERR err = check(client, buf, size, callback);
+  const CO_ERR err = check(client, buf, size != 0 || flags != is_upload, callback);
   if (err != CO_ERR_NONE) {
     return err;
   }
@@ -216,7 +221,7 @@ void abort_transfer(CO_CSDO& client, uint32_t code) {
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request) {
   const bool upload = has(client, is_upload);
   const bool block = has_block && by_block && client.Size >= CO_CSDO_BLOCK;
-  const bool expedited = client.Size <= wire::expedited_bytes;
+  const bool expedited = is_expedited(client);
   client.Flags = upload ? is_upload : 0;
   client.Num = 0;
   client.Total = upload ? 0 : client.Size;

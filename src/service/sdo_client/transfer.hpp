@@ -57,6 +57,9 @@ inline bool has(const CO_CSDO& client, Flag flag) { return (client.Flags & flag)
 inline void set(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8_t>(client.Flags | flag); }
 inline void clear(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8_t>(client.Flags & ~flag); }
 
+// Returns whether a download fits into the first request. One without data does not: it needs a segment.
+[[nodiscard]] inline bool is_expedited(const CO_CSDO& client) { return client.Size - 1 < wire::expedited_bytes; }
+
 // Services of the state machine. They return the abort code with which the client ends the transfer. [301:7.2.4.3]
 [[nodiscard]] uint32_t download_accepted(Step& step);
 [[nodiscard]] uint32_t segment_downloaded(Step& step);
