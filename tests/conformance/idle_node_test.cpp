@@ -4,9 +4,11 @@
 // cannot work returns its error or does nothing.
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <functional>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/fixture.hpp"

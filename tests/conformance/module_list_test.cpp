@@ -52,7 +52,7 @@ TEST_CASE("1027h: a number of modules above 254 is refused, not shortened [O7]")
   Modular device(list);
   number = 254;
   device.node.ask("601#4027100000000000", "581#4F271000FE000000");
-  for (const std::uint16_t refused : {255, 256, 0x1002}) {
+  for (const std::uint16_t refused : {std::uint16_t{255}, std::uint16_t{256}, std::uint16_t{0x1002}}) {
     number = refused;
     device.node.ask("601#4027100000000000", "581#8027100020000008");
     device.node.ask("601#4027100100000000", std::string("581#4B271001") + (refused == 255   ? "FF000000"

@@ -301,7 +301,7 @@ std::vector<CO_ERR> attempts;
 
 std::uint32_t size_that_maps(CO_OBJ*, CO_NODE* node, std::uint32_t) {
   const OutsideStack outside;
-  for (const std::uint16_t map : {0x1600, 0x1A00}) {
+  for (const std::uint16_t map : {std::uint16_t{0x1600}, std::uint16_t{0x1A00}}) {
     attempts.push_back(CODictWrByte(&node->Dict, CO_DEV(map, 0), 0));
     attempts.push_back(CODictWrLong(&node->Dict, CO_DEV(map, 1), 0x22010108));
     attempts.push_back(CODictWrByte(&node->Dict, CO_DEV(map - 0x200, 2), 254));
