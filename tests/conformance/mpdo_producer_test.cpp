@@ -205,6 +205,22 @@ TEST_CASE("MPDO from a source: a changed object with flag A is sent alone [301:7
   node.silent();
 }
 
+TEST_CASE("MPDO from a source: an object that was removed from the list is not sent any more") {
+  MpdoTable table = from_source();
+  table.scan = {0x02221101};  // 2211h:1 and 2
+  MpdoNode node(table);
+  node.frames_per_call(5);
+  node.start();
+  CHECK(node.set(0x1FA0, 1, 4, 0x01221101) == 0);
+  CHECK(node.set(0x2211, 2, 1, 0x42) == 0);
+  node.silent();
+  node.trigger_object(0x2211, 2);
+  node.silent();
+  CHECK(node.error() == CO_ERR_TPDO_OBJ_TRIGGER);
+  CHECK(node.request(0) == CO_ERR_NONE);
+  node.tx("181#0111220111000000");
+}
+
 TEST_CASE("MPDO from a source: COTPdoTrigObj() sends the object") {
   MpdoNode node(from_source());
   node.start();

@@ -707,6 +707,36 @@ TEST_CASE("parameters: with a classic driver a group whose stored bytes cannot b
   CHECK(ClassicDevice::held() == 0xFFFFFFFF);
 }
 
+TEST_CASE("parameters: with a classic driver a group of several pieces is stored and erased to its last byte") {
+  constexpr std::uint32_t size = 2 * CO_STORE_BUFFER + 5;
+  if (size > 120) {
+    return;
+  }
+  static std::uint8_t values[size];
+  CO_PARA group = {100, size, values, nullptr, CO_RESET_NODE, nullptr, CO_PARA___E};
+  ClassicDevice device;
+  Fixture node(device.without_groups()
+                   .nvm(refusing_driver, nullptr)
+                   .with({CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, Device::data(&group)})
+                   .with({CO_KEY(0x1011, 1, CO_OBJ_____RW), CO_TPARA_RESTORE, Device::data(&group)}));
+  std::fill(std::begin(refusing.bytes), std::end(refusing.bytes), std::uint8_t{0x77});
+  std::fill(std::begin(values), std::end(values), std::uint8_t{0x11});
+  const auto check = [&](std::uint8_t expected) {
+    for (std::uint32_t n = 0; n < 256; ++n) CHECK(refusing.bytes[n] == (n - 100 < size ? expected : 0x77));
+  };
+  node.ask("601#2310100173617665", "581#6010100100000000");
+  check(0x11);
+  const unsigned writes = refusing.writes;
+  node.ask("601#2310100173617665", "581#6010100100000000");
+  CHECK(refusing.writes == writes);
+  values[size - 1] = 0x12;  // in the last piece
+  node.ask("601#2310100173617665", "581#6010100100000000");
+  CHECK(refusing.bytes[100 + size - 1] == 0x12);
+  CHECK(refusing.writes == writes + 1);
+  node.ask("601#231110016C6F6164", "581#6011100100000000");
+  check(0xFF);
+}
+
 TEST_CASE("parameters: with a classic driver values that are stored already are not written again") {
   ClassicDevice device;
   Fixture node(device.setup());

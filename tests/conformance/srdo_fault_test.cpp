@@ -308,6 +308,34 @@ TEST_CASE("SRDO faults: the callback may leave Operational and then no EMCY is s
   node.silent();
 }
 
+TEST_CASE("SRDO faults: after a reset the node receives neither frame of a pair until Operational [SR14]") {
+  for (const char* const reset : {"000#8101", "000#8201"}) {
+    Established node;
+    const auto receives = [&](std::uint32_t id) {
+      return std::count(node.can.filter.begin(), node.can.filter.end(), id) != 0;
+    };
+    CHECK((receives(0x109) && receives(0x10A)));
+    node.rx(reset);
+    node.trace();
+    CHECK_FALSE((receives(0x109) || receives(0x10A)));
+    const std::uint32_t before = node.counters().Unclaimed;
+    node.rx("109#112233");
+    node.rx("10A#EEDDCC");
+    CHECK(node.counters().Unclaimed == before + 2);
+  }
+}
+
+#if USE_DICT_CHECK
+TEST_CASE("SRDO faults: the types of an SRDO are accepted in their places only [SR1]") {
+  std::uint32_t variable = 0;
+  for (const CO_OBJ& entry : {CO_OBJ{CO_KEY(0x2400, 5, CO_OBJ_____RW), CO_TSRDO_COM, &variable},
+                              CO_OBJ{CO_KEY(0x2400, 1, CO_OBJ_____RW), CO_TSRDO_MAP, &variable}}) {
+    Fixture node(Setup().with(entry).stay_in_init());
+    CHECK(CODictGetFault(&node->Dict, nullptr) == CO_DICT_WRONG_PLACE);
+  }
+}
+#endif
+
 TEST_CASE("SRDO faults: the callback may stop the node [SR14]") {
   Established node;
   callbacks().srdo_change = [&](CO_NODE* of, std::uint8_t, CO_SRDO_STATE) { CONodeStop(of); };
