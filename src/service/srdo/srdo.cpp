@@ -368,9 +368,6 @@ void init(CO_NODE& node) {
     srdo.Identifier[0] = srdo.Identifier[1] = wire::no_frame;
     srdo.State = direction_of(node, number) != CO_SRDO_NONE ? CO_SRDO_NOT_OPERATIONAL : CO_SRDO_DELETED;
     tmr::assign_to_real_time(srdo.Tmr);
-    for (unsigned frame = 0; frame < 2; ++frame) {
-      routes::remove(node, routes::Service::srdo, static_cast<uint16_t>(2 * number + frame));
-    }
   }
 }
 
