@@ -204,19 +204,28 @@ bool is_newest_damaged(const Slots& slots) {
 constexpr unsigned groups_in_byte = 4;
 constexpr unsigned slot_bits = 2;
 
+// A place in CO_NODE.ParaNewest.
+struct Remembered {
+  Remembered(CO_NODE& node, const Record& record)
+      : byte(node.ParaNewest[record.group / groups_in_byte]), shift(record.group % groups_in_byte * slot_bits) {
+    CO_ASSERT(record.group / groups_in_byte < sizeof node.ParaNewest);
+  }
+  uint8_t& byte;
+  unsigned shift;
+};
+
 void remember(CO_NODE& node, const Record& record, const Slot& slot) {
-  CO_ASSERT(record.group / groups_in_byte < sizeof node.ParaNewest);
-  const unsigned shift = record.group % groups_in_byte * slot_bits;
+  const Remembered at(node, record);
   const unsigned number = slot.start == record.start ? 1 : 2;
-  uint8_t& byte = node.ParaNewest[record.group / groups_in_byte];
-  byte = static_cast<uint8_t>((byte & ~(3U << shift)) | (is_whole(slot) ? number << shift : 0));
+  at.byte = static_cast<uint8_t>((at.byte & ~(3U << at.shift)) | (is_whole(slot) ? number << at.shift : 0));
 }
 
-// Returns whether a slot is the one that was remembered, and cannot be read any more.
-bool is_hidden(const CO_NODE& node, const Record& record, const Slot& slot) {
-  const unsigned shift = record.group % groups_in_byte * slot_bits;
-  const unsigned number = slot.start == record.start ? 1 : 2;
-  return !is_whole(slot) && (node.ParaNewest[record.group / groups_in_byte] >> shift & 3U) == number;
+// Returns whether the slot that was remembered cannot be read any more.
+bool is_hidden(CO_NODE& node, const Record& record, const Slots& slots) {
+  const Remembered at(node, record);
+  const unsigned number = at.byte >> at.shift & 3U;
+  const bool is_first = slots.newest.start == record.start;
+  return number != 0 && !is_whole(is_first == (number == 1) ? slots.newest : slots.other);
 }
 
 // Copies the first size bytes to the memory of the application, with the node lock held, and checks the CRC of all
@@ -395,7 +404,7 @@ CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
   if (is_stored(node, record, slots.newest, data)) {
     return CO_ERR_NONE;
   }
-  if (is_hidden(node, record, slots.newest) || is_hidden(node, record, slots.other)) {
+  if (is_hidden(node, record, slots)) {
     return CO_ERR_IF_NVM_WRITE;
   }
   return budget::take_store(node) ? write_record(node, record, slots, data) : CO_ERR_OBJ_STATE;
