@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="demo/run: builds the demo, shows it and serves it on a pseudo-terminal; the commands of README"
+about="demo/run: builds the demo, shows it and serves it on a pseudo-terminal; the commands of docs/demo.md"
 minutes=2
 packages=(g++ cmake ninja-build=ninja libcli11-dev=/usr/include/CLI/CLI.hpp python3 chromium)
 
@@ -9,7 +9,7 @@ lane() {
   check "demo/run --virtual" shows "steps in .* all as expected" --virtual
   check "demo/run thermometer" shows "TPDO1 temperature in 0.1 degrees Celsius = 1010" thermometer
   check "demo/run recorder, and its picture in Chromium" drawn
-  check "demo/run --serve, and the commands of README for the master" served
+  check "demo/run --serve, and the commands for the master" served
   check "demo/run --serve without node-ID, and lss set-id" configured
 }
 

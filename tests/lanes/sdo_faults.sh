@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="SDO transfers with every pair of faults, every frame of 65536 bytes, and 200000 triples, gcc -O2, half an hour"
+minutes=30
 packages=("${build_packages[@]}")
 
 # Runs the complete sweep of faults twice; the second build's server has blocks of 8 segments.

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 . "$root/tests/lanes/sizes.sh"
-about="flash and RAM of each switch of co_cfg.h; compared with docs/sizes.md"
-unset minutes
+about="flash and RAM of the switches of co_cfg.h; compared with docs/sizes.md"
+minutes=2
+packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}")
 of=$results/switches
 
 switches=(USE_CALLBACKS=0 USE_DICT_CHECK=0 USE_FAST_PATHS=0 USE_CSDO=0 USE_SDO_BLOCK=0 USE_CSDO_BLOCK=0
@@ -18,7 +19,7 @@ lane() {
     --column "flash" "$arm" "$of-flash" --column "RAM" "$arm" "$of-ram"
 }
 
-# Prints the difference in size of each switch's other value to presets/slave.h, with all functions kept.
+# Stores the difference in size of each switch's other value to presets/slave.h, with all functions kept.
 size_of_switches() {
   local switch before after
   rm -f "$of-flash" "$of-ram"

@@ -19,7 +19,7 @@ lane() {
     "$build/release/tests/lexican_bus_tests" "$check" "$build/heater/heater"
 }
 
-# Builds as README describes, with the codict that a project for another machine has built.
+# Builds as docs/use.md describes, with the codict that a project for another machine has built.
 heater() {
   host_codict && cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja -DLEXICAN_CODICT="$codict" \
     -DLEXICAN_WARNINGS_AS_ERRORS=ON &&

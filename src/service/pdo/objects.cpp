@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1400h…1BFFh: communication and mapping parameters of PDOs. [301:7.5.2.35-38]
+#include "base/events.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "dictionary/dict.hpp"
