@@ -98,9 +98,9 @@ bool replace(CO_NODE& node, const CO_IF_FRM& frame) {
   return waiting != nullptr;
 }
 
-// Returns whether an identifier is that of the responses of an SDO server.
-bool is_response(const CO_NODE& node, uint32_t identifier) {
-  bool is_one = false;
+// Returns whether an identifier is that of the responses of an SDO server, or of NMT commands to other nodes.
+bool survives_reset(const CO_NODE& node, uint32_t identifier) {
+  bool is_one = identifier == 0;
   for (const CO_SDO& server : node.Sdo) {
     is_one = is_one || server.TxId == identifier;
   }
@@ -213,8 +213,11 @@ void clear(CO_NODE& node) {
 void keep_responses(CO_NODE& node) {
   CO_TX_QUEUE& queue = node.TxQueue;
   unsigned kept = 0;
+  if (node.Nmt.Mode == CO_INIT) {  // queued frames of Initialisation follow the boot-up message
+    return;
+  }
   for (unsigned n = 0; n < queue.Num; ++n) {
-    if (is_response(node, queue.Frame[n].Identifier)) {
+    if (survives_reset(node, queue.Frame[n].Identifier)) {
       queue.Frame[kept++] = queue.Frame[n];
     } else {
       count(node.Count.Dropped);

@@ -45,8 +45,8 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 [[nodiscard]] bool is_queued(const CO_NODE& node, uint32_t identifier);
 [[nodiscard]] bool has_place_for_application(const CO_NODE& node);
 
-// Keeps only the queued responses of SDO servers, and counts the other frames as dropped. The responses are sent before
-// all frames that are queued later, the boot-up message included.
+// Keeps only the queued responses of SDO servers and NMT commands, and counts the other frames as dropped. The kept
+// ones are sent before all frames that are queued later, the boot-up message included. In Initialisation keeps all.
 void keep_responses(CO_NODE& node);
 // Drops the frames that were queued since, and counts them as dropped.
 void drop_behind_responses(CO_NODE& node);

@@ -64,18 +64,21 @@ void start(CO_NODE& node) {
 }
 
 // Resets the node. commanded: a reset by the NMT master drops the queued frames; a reset by the application still sends
-// the SDO responses among them, as it may have been requested by a write.
+// the SDO responses among them, as it may have been requested by a write, and NMT commands to other nodes.
 void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
   if (node.Nmt.Mode == CO_INVALID) {  // COLssLoad() has stopped the node
     return;
   }
-  const bool waits_for_start = node.Nmt.Mode == CO_INIT && !services::is_started(node);
+  const bool was_initialising = node.Nmt.Mode == CO_INIT;
+  const bool waits_for_start = was_initialising && !services::is_started(node);
   commanded ? transmit::clear(node) : transmit::keep_responses(node);
   event::change_mode(node, CO_INIT);
   if (node.Nmt.Mode != CO_INIT) {
     return;
   }
-  transmit::drop_behind_responses(node);  // messages of the last state
+  if (!was_initialising) {
+    transmit::drop_behind_responses(node);  // messages of the last state
+  }
   port::can_reset(node);
   services::save_changes(node);
   services::take_node_id(node);

@@ -246,7 +246,6 @@ static void test_bad_arguments_are_refused(void) {
   TEST_ASSERT_EQUAL(CO_ERR_BAD_ARG, COCSdoRequestUpload(csdo, key, Value, 4, NULL, 0));
   TEST_ASSERT_EQUAL(CO_ERR_BAD_ARG, COCSdoRequestDownload(NULL, key, Value, 4, AppCSdoEnded, 0));
   TEST_ASSERT_EQUAL(CO_ERR_BAD_ARG, COCSdoRequestDownload(csdo, key, NULL, 4, AppCSdoEnded, 0));
-  TEST_ASSERT_EQUAL(CO_ERR_BAD_ARG, COCSdoRequestDownload(csdo, key, Value, 0, AppCSdoEnded, 0));
   TEST_ASSERT_EQUAL(CO_ERR_BAD_ARG, COCSdoRequestDownload(csdo, key, Value, 4, NULL, 0));
   TEST_ASSERT_EQUAL(CO_CSDO_STATE_IDLE, csdo->State);
   TEST_ASSERT_SENT("");
