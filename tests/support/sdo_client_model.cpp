@@ -122,11 +122,23 @@ SdoClientModel::Answer SdoClientModel::abort_received(const SdoBytes& response) 
 
 // Responses of the server ---------------------------------------------------------------------------------------------
 
+namespace {
+
+// Returns whether a frame is an abort of an initiate of any object: servers that do not know a request abort it with
+// index 0, or with the object of their last transfer.
+bool is_abort_of_any(const SdoBytes& response) {
+  const bool has_no_object = response[1] == 0 && response[2] == 0 && response[3] == 0;
+  return response[0] == 0x80 && (has_no_object || number_in(response) == unknown_command);
+}
+
+}  // namespace
+
 std::optional<SdoBytes> SdoClientModel::answer(const SdoBytes& response) {
   if (state_ == State::idle) {
     return std::nullopt;
   }
-  if (state_ == State::initiated && !std::equal(key_.begin(), key_.end(), response.begin() + 1)) {
+  if (state_ == State::initiated && !std::equal(key_.begin(), key_.end(), response.begin() + 1) &&
+      !is_abort_of_any(response)) {
     return std::nullopt;
   }
   if (state_ == State::block_upload && response[0] != 0x80) {
