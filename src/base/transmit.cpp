@@ -210,28 +210,25 @@ void clear(CO_NODE& node) {
   node.TxQueue.Fixed = 0;
 }
 
-void keep_responses(CO_NODE& node) {
-  CO_TX_QUEUE& queue = node.TxQueue;
-  unsigned kept = 0;
-  if (node.Nmt.Mode == CO_INIT) {  // queued frames of Initialisation follow the boot-up message
-    return;
-  }
-  for (unsigned n = 0; n < queue.Num; ++n) {
-    if (survives_reset(node, queue.Frame[n].Identifier)) {
-      queue.Frame[kept++] = queue.Frame[n];
-    } else {
-      count(node.Count.Dropped);
-    }
-  }
-  queue.Num = static_cast<uint16_t>(kept);
-  queue.Fixed = queue.Num;
-}
-
 void drop_behind_responses(CO_NODE& node) {
   CO_TX_QUEUE& queue = node.TxQueue;
   for (; queue.Num > queue.Fixed; --queue.Num) {
     count(node.Count.Dropped);
   }
+}
+
+void keep_responses(CO_NODE& node) {
+  CO_TX_QUEUE& queue = node.TxQueue;
+  if (node.Nmt.Mode == CO_INIT) {  // queued frames of Initialisation follow the boot-up message
+    return;
+  }
+  queue.Fixed = 0;
+  for (unsigned n = 0; n < queue.Num; ++n) {
+    if (survives_reset(node, queue.Frame[n].Identifier)) {
+      queue.Frame[queue.Fixed++] = queue.Frame[n];
+    }
+  }
+  drop_behind_responses(node);
 }
 
 }  // namespace co::transmit

@@ -61,8 +61,8 @@ bool read_before(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& number, uint32_t
   return size == sizeof before && number.Read(&obj, &node, &before, size) == CO_ERR_NONE;
 }
 
-// Returns whether a Size function of a mapped object is the caller: what it writes could not be told from what is being
-// resolved.
+// Returns whether a Size function of a mapped object is the caller: a PDO that it configures could be the one whose
+// mapping is being resolved.
 bool is_mapping(const CO_NODE& node) { return (node.State & event::mapping) != 0; }
 
 template <class T>
@@ -179,9 +179,6 @@ CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 // Writes the number of mapped objects. If the mapping cannot be resolved, the write is refused and the number becomes
 // 0. Writing the present number does not require flag P of the objects, because the mapping may be the designer's.
 CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (is_mapping(*node)) {
-    return CO_ERR_OBJ_STATE;
-  }
   uint8_t before = 0;
   if (!read_before(*obj, *node, COTInt8, size, before)) {
     return CO_ERR_BAD_ARG;
@@ -199,9 +196,6 @@ CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 }
 
 CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (is_mapping(*node)) {
-    return CO_ERR_OBJ_STATE;
-  }
   if (size != sizeof(uint32_t)) {
     return CO_ERR_BAD_ARG;
   }
@@ -211,11 +205,7 @@ CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_OBJ_ACC;
   }
   const auto value = value_in<uint32_t>(buffer);
-  CO_ERR err = CO_ERR_NONE;
-  if (value != 0) {
-    const event::Mapping scope(*node);
-    err = pdo::check(*node, direction_of(*obj), value, MappedBy::network);
-  }
+  const CO_ERR err = value == 0 ? CO_ERR_NONE : pdo::check(*node, direction_of(*obj), value, MappedBy::network);
   return err == CO_ERR_NONE ? COTInt32.Write(obj, node, buffer, size) : err;
 }
 
