@@ -223,7 +223,7 @@ void remember(CO_NODE& node, const Record& record, const Slot& slot) {
 // Returns whether the slot that was remembered cannot be read any more.
 bool is_hidden(CO_NODE& node, const Record& record, const Slots& slots) {
   const Remembered at(node, record);
-  const unsigned number = at.byte >> at.shift & 3U;
+  const unsigned number = unsigned{at.byte} >> at.shift & 3U;
   const bool is_first = slots.newest.start == record.start;
   return number != 0 && !is_whole(is_first == (number == 1) ? slots.newest : slots.other);
 }

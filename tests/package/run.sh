@@ -24,7 +24,7 @@ build_and_refuse() {
 }
 
 by_cmake() {
-  cmake -S "$here/$way" -B "$directory" -G Ninja -DCONSUMER_LANGUAGE="$language" -DCONSUMER_SOURCE="$program" \
+  cmake --no-warn-unused-cli -S "$here/$way" -B "$directory" -G Ninja -DCONSUMER_LANGUAGE="$language" -DCONSUMER_SOURCE="$program" \
     -DLEXICAN_SOURCE="$source" -DCMAKE_PREFIX_PATH="$prefix"
   cmake --build "$directory"
   # Nothing of ours but the library gets into a user's build.
