@@ -88,7 +88,7 @@ class BusOff : public Fixture {
     silent();
     can.accept_all();
     loop();
-    tx({"201#0102030405060708", "701#00"});
+    tx("701#00");  // the frame of the application is dropped
     CHECK(mode() == CO_PREOP);
     ask("601#4000100000000000", "581#4300100091010F00");
     CHECK(can.resets == 1);

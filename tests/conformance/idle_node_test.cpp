@@ -31,7 +31,7 @@ const CO_IF_CAN_DRV_EX can = {[](void*) {},
                               [](void*) {},
                               nullptr,
                               nullptr};
-const CO_IF_TIMER_DRV_EX timer = {[](void*, std::uint32_t) {}, [](void*) { return 0U; }, nullptr};
+const CO_IF_TIMER_DRV_EX timer = {[](void*, std::uint32_t) {}, [](void*) -> std::uint32_t { return 0; }, nullptr};
 
 struct Variables {
   std::uint8_t error_register = 0, type = 254, number = 1, a8 = 1, direction = 1, one = 8, valid = 0xA5;
@@ -114,7 +114,7 @@ CO_OBJ* entry(Node& of) {
 std::uint8_t bytes[16];
 std::uint32_t number;
 CO_IF_FRM frame = {0x123, {}, 8};
-CO_TIME_OF_DAY time_of_day = {1, 2};
+[[maybe_unused]] CO_TIME_OF_DAY time_of_day = {1, 2};
 void action(void*) {}
 
 // A function that calls another one for each entry of the table.

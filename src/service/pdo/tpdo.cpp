@@ -437,17 +437,15 @@ CO_ERR request_object(CO_NODE& node, const CO_OBJ& obj) {
 
 event::Outlet find_outlet(CO_NODE& node, const CO_OBJ& obj) {
   using event::Outlet;
-  bool is_mapped = false;
+  const uint16_t entry = number_of(node, obj);
+  Outlet outlet = Outlet::none;
   for (CO_TPDO& pdo : node.TPdo) {
-    if (exists(pdo.Map) && (node.Pending & event::remap) == 0 && maps(pdo.Map, number_of(node, obj))) {
-      is_mapped = true;
-      if (transmit::is_queued(node, pdo.Identifier)) {
-        return Outlet::queued;
-      }
+    if (exists(pdo.Map) && maps(pdo.Map, entry) && outlet != Outlet::queued) {
+      outlet = transmit::is_queued(node, pdo.Identifier) ? Outlet::queued : Outlet::open;
     }
   }
-  if (!is_mapped || !is_operational(node)) {
-    return is_mapped ? Outlet::closed : Outlet::none;
+  if (outlet != Outlet::open || !is_operational(node)) {
+    return outlet == Outlet::open ? Outlet::closed : outlet;
   }
   return transmit::has_place_for_application(node) ? Outlet::open : Outlet::full;
 }
