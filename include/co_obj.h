@@ -225,8 +225,9 @@ CO_ERR COObjRdValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t wi
 CO_ERR COObjWrValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t width);
 
 /// Reads a stream from its beginning: calls Reset(0), then reads \a size bytes into \a buffer. Returns the result of
-/// the type's functions, or: \retval CO_ERR_BAD_ARG  an argument is null, or a value
-/// has another length \retval CO_ERR_OBJ_ACC  the type has no Read function
+/// the type's functions, or:
+/// \retval CO_ERR_BAD_ARG  an argument is null, or a value has another length
+/// \retval CO_ERR_OBJ_ACC  the type has no Read function
 CO_ERR COObjRdBufStart(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
 /// Reads the next \a size bytes of a stream. Returns the result of the type's Read function, or:

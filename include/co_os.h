@@ -7,7 +7,8 @@
 /// OS command and debugger: a CO_OS_COMMAND each, Data of all entries of 1023h and 1024h, or of 1025h.
 /// - Sub-index 1, CO_TOS_COMMAND, OCTET_STRING: a download is a command; an upload returns the command that was written
 ///   last. A command that arrives completely is executed, or stored if 1024h is 1; a download that is aborted has no
-///   effect. Refused are a command that does not fit (0607 0012h) and each command while one is executed (0800 0022h).
+///   effect, except that an upload returns 0 bytes if the memory had no space for it beside the last command. Refused
+///   are a command that does not fit (0607 0012h) and each command while one is executed (0800 0022h).
 /// - Sub-index 2, CO_TOS_STATUS, UNSIGNED8: CO_OS_STATUS_…
 /// - Sub-index 3, CO_TOS_REPLY, OCTET_STRING: the reply; 0800 0024h without a reply, 0800 0022h during execution.
 /// - 1024h, CO_TOS_MODE, UNSIGNED8, write-only: CO_OS_MODE_…; other values are refused (0609 0030h).

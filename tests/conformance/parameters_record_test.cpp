@@ -347,28 +347,24 @@ TEST_CASE("parameters: while the newest record cannot be read \"save\" is refuse
     for (const bool is_loaded : {false, true}) {
       CAPTURE(is_loaded);
       GroupDevice device = with_flash();
-      {
-        Fixture node(device.setup());
-        CHECK(save(node, device, 2) == 0);
-        CHECK(save(node, device, 3) == 0);
-        if (!is_loaded) {
-          const Bytes before = device.nvm.bytes;
-          device.nvm.is_deaf = what == Hidden::all;
-          device.nvm.torn_from = what == Hidden::newest ? 768 + 24 : 768;
-          device.nvm.torn_to = what == Hidden::all ? 0 : 768 + 32;
-          CHECK(save(node, device, 4) == 0x06060000);
-          CHECK(device.nvm.bytes == before);
-        }
-      }
-      if (is_loaded) {
-        Fixture node(device.setup());
-        CHECK(device.ram[1].number == 3);
+      const auto check_refused = [&](Fixture& node) {
         const Bytes before = device.nvm.bytes;
         device.nvm.is_deaf = what == Hidden::all;
         device.nvm.torn_from = what == Hidden::newest ? 768 + 24 : 768;
         device.nvm.torn_to = what == Hidden::all ? 0 : 768 + 32;
         CHECK(save(node, device, 4) == 0x06060000);
         CHECK(device.nvm.bytes == before);
+      };
+      {
+        Fixture node(device.setup());
+        CHECK(save(node, device, 2) == 0);
+        CHECK(save(node, device, 3) == 0);
+        if (!is_loaded) check_refused(node);
+      }
+      if (is_loaded) {
+        Fixture node(device.setup());
+        CHECK(device.ram[1].number == 3);
+        check_refused(node);
         device.nvm.is_deaf = false;
         device.nvm.torn_to = 0;
         CHECK(save(node, device, 5) == 0);

@@ -246,16 +246,24 @@ TEST_CASE("SRDO faults: a dictionary that is replaced in Operational ends the SR
   node.trace();
 }
 
+// A node that sends two SRDOs, which are established.
+struct TwoProducers : SrdoNode {
+  TwoProducers() : SrdoNode(table()) {
+    start();
+    after(60ms);
+    trace();
+    REQUIRE(COSrdoIsEstablished(&node));
+  }
+  static SrdoTable table() {
+    SrdoTable table;
+    table.srdo[0].send(0x109, pair_of_3);
+    table.srdo[1].send(0x10B, pair_of_3);
+    return table;
+  }
+};
+
 TEST_CASE("SRDO faults: all SRDOs have ended before a callback reports that the dictionary was replaced [SR14]") {
-  SrdoTable table;
-  table.srdo[0].send(0x109, pair_of_3);
-  table.srdo[1].send(0x10B, pair_of_3);
-  SrdoNode node(table);
-  node.start();
-  node.after(60ms);
-  node.trace();
-  REQUIRE(node.state(0) == CO_SRDO_ESTABLISHED);
-  REQUIRE(node.state(1) == CO_SRDO_ESTABLISHED);
+  TwoProducers node;
   std::vector<std::pair<unsigned, CO_ERR>> results;
   callbacks().srdo_change = [&](CO_NODE* of, std::uint8_t number, CO_SRDO_STATE to) {
     CHECK(to == CO_SRDO_ERR_INTERNAL);
@@ -274,14 +282,7 @@ TEST_CASE("SRDO faults: all SRDOs have ended before a callback reports that the 
 
 TEST_CASE("SRDO faults: at the end of Operational a callback may delete an SRDO, all of which have ended [SR14]") {
   for (const char* const end : {"000#8001", "000#0201", "000#8201"}) {
-    SrdoTable table;
-    table.srdo[0].send(0x109, pair_of_3);
-    table.srdo[1].send(0x10B, pair_of_3);
-    SrdoNode node(table);
-    node.start();
-    node.after(60ms);
-    node.trace();
-    node.take_changes();
+    TwoProducers node;
     std::vector<SrdoNode::Change> changes;
     callbacks().srdo_change = [&](CO_NODE* of, std::uint8_t number, CO_SRDO_STATE to) {
       changes.emplace_back(number, to);
