@@ -318,16 +318,16 @@ TEST_CASE("plot: it is the same by every kind of transfer [R4]") {
 
 TEST_CASE("plot: lost segments are generated again [R4]") {
   for (const unsigned format : {CO_RECORDER_CSV, CO_RECORDER_BINARY, CO_RECORDER_SVG}) {
-    Recorded recorded = Recorded().format(format).memory(600).size(600).name("speed");
+    Recorded recorded = Recorded().format(format).memory(300).size(300).name("speed");
     RecorderNode first(recorded);
-    record(first, 1, 600);
+    record(first, 1, 300);
     const std::string expected = first.plot();
     unsigned completed = 0;
-    for (unsigned lost = 1; lost < 900; lost += stride(97)) {
+    for (unsigned lost = 1; lost < 450; lost += stride(97)) {
       CAPTURE(format);
       CAPTURE(lost);
       RecorderNode node(recorded);
-      record(node, 1, 600);
+      record(node, 1, 300);
       BlockOptions options;
       options.blksizes = {127, 30, 1, 99};
       options.lost_answers = {lost, lost + 40, lost + 41};

@@ -8,22 +8,16 @@ lane() {
   configuration O3 -O3
   test_options=()
   configuration lto "-O2 -flto"
-  configuration unsigned-char "-O2 -funsigned-char"
-  configuration short-enums "-O2 -fshort-enums"
-  configuration asserts "-O0 -UNDEBUG"
-  # Smallest buffers, most channels, slowest block transfer, no block transfer, clients with the fewest functions.
+  configuration unsigned-char-short-enums "-O2 -funsigned-char -fshort-enums"
+  # Smallest buffers, most channels, slowest block transfer, no block transfer and clients with the fewest functions.
   configuration one-segment "-O2 -DCO_SDO_BUF_SEG=1" slave
   configuration two-segments "-O2 -DCO_SDO_BUF_SEG=2 -DCO_SSDO_N=128 -DCO_CSDO_N=100" slave
-  configuration eight-segments "-O2 -DCO_SDO_BUF_SEG=8" slave
-  configuration segment-a-call "-O2 -DCO_SDO_BLOCK_PACE=1" slave
-  configuration no-block "-O2 -DUSE_SDO_BLOCK=0" slave
-  configuration small-client "-O2 -DUSE_CSDO_BLOCK=0 -DUSE_CSDO_OWN=0" slave
-  # Mapping of single bits, no remote requests (and no LSS in Operational), restricted CAN-IDs permitted, a gap
-  # between the frames of an SRDO, most PDOs.
-  configuration pdo-bits "-O2 -DUSE_PDO_BITS=1"
-  configuration no-remote "-O2 -DUSE_PDO_RTR=0 -DCO_LSS_IN_OPERATIONAL=0"
-  configuration restricted-ids "-O2 -DCO_RESTRICTED_IDS=1"
-  configuration srdo-gap "-O2 -DCO_SRDO_GAP=300"
+  configuration segment-a-call "-O2 -DCO_SDO_BUF_SEG=8 -DCO_SDO_BLOCK_PACE=1" slave
+  configuration no-block "-O2 -DUSE_SDO_BLOCK=0 -DUSE_CSDO_BLOCK=0 -DUSE_CSDO_OWN=0" slave
+  # Mapping of single bits and a gap between the frames of an SRDO; no remote requests, no LSS in Operational, restricted
+  # CAN-IDs permitted; most PDOs.
+  configuration pdo-bits "-O2 -DUSE_PDO_BITS=1 -DCO_SRDO_GAP=300"
+  configuration no-remote "-O2 -DUSE_PDO_RTR=0 -DCO_LSS_IN_OPERATIONAL=0 -DCO_RESTRICTED_IDS=1"
   configuration pdo-512 "-O2 -DCO_RPDO_N=512 -DCO_TPDO_N=512" slave
 }
 

@@ -154,5 +154,5 @@ TEST_CASE("network: the analysis of hostile times ends") {
   }
   streams.push_back({1, 1, 0});
   CHECK(response_times(streams, us).size() == 201);
-  CHECK(response_times(std::vector<Stream>(60000, {47 * us, 2821 * ms, 0}), us).size() == 60000);
+  CHECK(response_times(std::vector<Stream>(20000, {47 * us, 2821 * ms, 0}), us).size() == 20000);
 }

@@ -44,7 +44,7 @@ std::vector<Difference> wanted(std::vector<Difference> differences, const DiffOp
 
 std::string value(const std::string& text) { return text.empty() ? "-" : visible(text); }
 
-std::string render(const std::vector<Difference>& differences) {
+std::string text_of(const std::vector<Difference>& differences) {
   std::string text;
   for (const Difference& difference : differences) {
     text +=
@@ -114,7 +114,7 @@ int run_diff(const DiffOptions& options) {
                     {"is_announced", is_announced},
                     {"differences", std::move(list)}});
   } else {
-    print(render(differences));
+    print(text_of(differences));
     if (!differences.empty()) {
       print_message(summary(differences));
     }

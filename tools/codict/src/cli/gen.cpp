@@ -104,15 +104,15 @@ std::string output_text(const GenOptions& options, const Result& result) {
 }
 
 // A file that is written. Its text is generated then, because that of a large dictionary needs much memory.
-struct Target {
+struct Output {
   std::string path;
   std::function<std::string()> text;
 };
 
-Json report_json(const std::vector<Target>& targets, const Result& result) {
+Json report_json(const std::vector<Output>& outputs, const Result& result) {
   Json json{{"schema", "codict-gen-1"}, {"files", Json::array()}, {"parts", costs_json(gen::costs_of(result.plan))}};
-  for (const Target& target : targets) {
-    json["files"].push_back(target.path);
+  for (const Output& output : outputs) {
+    json["files"].push_back(output.path);
   }
   json["groups"] = Json::array();
   for (const gen::StoredGroup& group : result.groups) {
@@ -137,33 +137,33 @@ const Device& with_file_name(Device& device, const std::string& path) {
 }
 
 // Returns all files: the sources, and the descriptions that match them. They refer to the parameters.
-std::vector<Target> targets_of(const GenOptions& options, Result& result) {
+std::vector<Output> outputs_of(const GenOptions& options, Result& result) {
   const std::string directory = options.directory + "/";
-  std::vector<Target> targets;
-  targets.push_back(
+  std::vector<Output> outputs;
+  outputs.push_back(
       {directory + gen::header_name(options.gen), [&] { return gen::write_header(result.plan, options.gen); }});
-  targets.push_back(
+  outputs.push_back(
       {directory + gen::source_name(options.gen), [&] { return gen::write_source(result.plan, options.gen); }});
   if (!options.verify_source.empty()) {
-    targets.push_back({options.verify_source, [&] { return gen::write_verify(result.plan, options.gen); }});
+    outputs.push_back({options.verify_source, [&] { return gen::write_verify(result.plan, options.gen); }});
   }
   if (!options.eds.empty()) {
-    targets.push_back(
+    outputs.push_back(
         {options.eds, [&] { return eds::write(with_file_name(result.device, options.eds), eds::WriteOptions()); }});
   }
   if (!options.xdd.empty()) {
-    targets.push_back(
+    outputs.push_back(
         {options.xdd, [&] { return xdd::write(with_file_name(result.device, options.xdd), xdd::Edition::v11); }});
   }
-  return targets;
+  return outputs;
 }
 
 // Returns false after a message if a file would overwrite the description, or if two files have the same path.
-bool have_places(const GenOptions& options, const std::vector<Target>& targets) {
-  for (std::size_t n = 0; n < targets.size(); ++n) {
-    const std::string& path = targets[n].path;
-    const bool is_twice = std::any_of(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(n),
-                                      [&path](const Target& other) { return is_same_file(path, other.path); });
+bool have_places(const GenOptions& options, const std::vector<Output>& outputs) {
+  for (std::size_t n = 0; n < outputs.size(); ++n) {
+    const std::string& path = outputs[n].path;
+    const bool is_twice = std::any_of(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(n),
+                                      [&path](const Output& other) { return is_same_file(path, other.path); });
     if (is_same_file(path, options.file) || is_twice) {
       print_message(path +
                     (is_twice ? ": two outputs have this name" : ": the output would overwrite the description"));
@@ -279,17 +279,17 @@ void complete_result(const GenOptions& options, Input input, Result& result) {
 }
 
 int write_all(const GenOptions& options, Result& result) {
-  const std::vector<Target> targets = targets_of(options, result);
-  if (!have_places(options, targets) || (!options.is_check && !make_directory(options.directory))) {
+  const std::vector<Output> outputs = outputs_of(options, result);
+  if (!have_places(options, outputs) || (!options.is_check && !make_directory(options.directory))) {
     return unusable;
   }
   int status = clean;
-  for (const Target& target : targets) {
-    const std::string text = target.text();
-    status = std::max<int>(status, options.is_check ? compare(target.path, text) : write_output(target.path, text));
+  for (const Output& output : outputs) {
+    const std::string text = output.text();
+    status = std::max<int>(status, options.is_check ? compare(output.path, text) : write_output(output.path, text));
   }
   if (options.is_json) {
-    print_json(report_json(targets, result));
+    print_json(report_json(outputs, result));
   } else if (options.is_report || !options.is_check) {
     print(output_text(options, result));
   }

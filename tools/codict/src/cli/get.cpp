@@ -20,7 +20,7 @@ struct GetOptions {
 };
 
 // Returns the exact text; on a terminal, with question marks for control characters.
-std::string value(const std::string& text) { return is_terminal() ? visible(text) : text; }
+std::string printed(const std::string& text) { return is_terminal() ? visible(text) : text; }
 
 Json value_json(const Input& input, const eds::Key& key) {
   const Position position = input.source().position(key.value.begin);
@@ -35,7 +35,7 @@ int get_all(const Input& input, const eds::Section& section, bool is_json) {
   std::string lines;
   for (const eds::Key& key : section.keys) {
     keys.push_back(value_json(input, key));
-    lines += fmt::format("{}={}\n", value(input.eds->text(key.name)), value(input.eds->text(key.value)));
+    lines += fmt::format("{}={}\n", printed(input.eds->text(key.name)), printed(input.eds->text(key.value)));
   }
   if (is_json) {
     print_json(Json{{"schema", "codict-get-1"}, {"section", input.eds->text(section.name)}, {"keys", std::move(keys)}});
@@ -66,7 +66,7 @@ int get_from_sections(const Input& input, const GetOptions& options) {
     json["keys"] = Json::array({value_json(input, *key)});
     print_json(json);
   } else {
-    print(value(input.eds->text(key->value)) + "\n");
+    print(printed(input.eds->text(key->value)) + "\n");
   }
   return clean;
 }
@@ -90,7 +90,7 @@ int get_from_elements(const Input& input, const GetOptions& options) {
   for_each_text(*entry, [&](std::string_view field, const Text& text) {
     if (wants_all || find_text(*entry, options.field) == &text) {
       keys.push_back(value_json(input, field, text));
-      lines += wants_all ? fmt::format("{}={}\n", field, value(text.text)) : value(text.text) + "\n";
+      lines += wants_all ? fmt::format("{}={}\n", field, printed(text.text)) : printed(text.text) + "\n";
     }
   });
   if (keys.elements().empty()) {

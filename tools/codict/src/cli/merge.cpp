@@ -34,20 +34,20 @@ struct MergeOptions {
   bool is_json = false;
 };
 
-// Word of --set that a build supplies, and the field that it sets.
-struct Word {
+// A word of --set that a build supplies, and the field that it sets.
+struct IdentityWord {
   std::string_view name;
   std::string_view target;
   std::string_view field;
 };
 
-constexpr std::array<Word, 7> identity_words = {{{"vendor", "1018:1", "default"},
-                                                 {"vendor", "DeviceInfo", "VendorNumber"},
-                                                 {"product", "1018:2", "default"},
-                                                 {"product", "DeviceInfo", "ProductNumber"},
-                                                 {"revision", "1018:3", "default"},
-                                                 {"revision", "DeviceInfo", "RevisionNumber"},
-                                                 {"serial", "1018:4", "default"}}};
+constexpr std::array<IdentityWord, 7> identity_words = {{{"vendor", "1018:1", "default"},
+                                                         {"vendor", "DeviceInfo", "VendorNumber"},
+                                                         {"product", "1018:2", "default"},
+                                                         {"product", "DeviceInfo", "ProductNumber"},
+                                                         {"revision", "1018:3", "default"},
+                                                         {"revision", "DeviceInfo", "RevisionNumber"},
+                                                         {"serial", "1018:4", "default"}}};
 constexpr std::string_view software_version = "100A:0";
 
 struct MergeResult {
@@ -157,7 +157,7 @@ std::string lines_for(const Input& input, std::string_view assignment, std::stri
     return lines_for(input, std::string(software_version), "default", value, why);
   }
   std::string lines;
-  for (const Word& word : identity_words) {
+  for (const IdentityWord& word : identity_words) {
     const bool is_object = word.target != "DeviceInfo";
     if (word.name != place || (!is_object && input.eds->find("DeviceInfo") == nullptr)) {
       continue;

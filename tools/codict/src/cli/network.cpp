@@ -119,7 +119,8 @@ std::optional<Project> described_project(const NetworkOptions& options) {
 }
 
 // Returns the findings of each source as text, and appends them to json.
-std::string shown(const Project& project, const network::NetworkFindings& findings, bool shows_notes, Json& json) {
+std::string sources_text(const Project& project, const network::NetworkFindings& findings, bool shows_notes,
+                         Json& json) {
   std::string text;
   const auto show = [&](const Source& source, Encoding encoding, const Findings& all) {
     std::vector<Finding> wanted;
@@ -230,7 +231,7 @@ int finish(const NetworkOptions& options, const Project& project) {
   files.push_back({"network.html", network::html_report(net, links, traffic, findings)});
   Json json = json_of(net, links, traffic);
   json["sources"] = Json::array();
-  fmt::print(stderr, "{}", shown(project, findings, options.shows_notes, json["sources"]));
+  fmt::print(stderr, "{}", sources_text(project, findings, options.shows_notes, json["sources"]));
   if (options.is_json) {
     print_json(json);
   } else if (!net.nodes.empty()) {

@@ -78,10 +78,10 @@ std::string heading_of(const Row& row) {
   if (!row.item.transmission.empty()) {
     text += "; " + row.item.transmission;
   }
-  const auto add = [&](std::uint8_t sub_index, const auto& words) {
+  const auto add = [&](std::uint8_t sub_index, const auto& text_of_time) {
     const Value* const value = value_of(row.pdo, sub_index);
     if (value != nullptr && value->integer.magnitude != 0) {
-      text += "; " + words(value->integer.magnitude);
+      text += "; " + text_of_time(value->integer.magnitude);
     }
   };
   add(inhibit_time, [](std::uint64_t time) { return fmt::format("inhibit time {}.{} ms", time / 10, time % 10); });

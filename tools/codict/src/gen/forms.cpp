@@ -39,7 +39,7 @@ constexpr Form forms[] = {
     {"CO_TUNSIGNED64", "uint64_t", 0x1B, 8, 8, 8},
 };
 
-constexpr Place places[] = {
+constexpr Place form_places[] = {
     {0x1003, 0x1003, 0, 0, "CO_TEMCY_HIST", 1, Service::value, false, "USE_EMCY"},
     {0x1003, 0x1003, 1, 254, "CO_TEMCY_HIST", 4, Service::fixed, false, "USE_EMCY"},
     {0x1005, 0x1005, 0, 0, "CO_TSYNC_ID", 4, Service::value, true, "USE_SYNC"},
@@ -151,7 +151,7 @@ const Form& unsigned_form(std::uint8_t bytes) {
 }
 
 const Place* place_of(std::uint16_t index, std::uint8_t sub_index, bool has_subs) {
-  for (const Place& place : places) {
+  for (const Place& place : form_places) {
     const bool is_number = place.first == 0x1003 || place.first == 0x1016 || place.type == "CO_TPDO_NUM" ||
                            place.first == 0x1010 || place.first == 0x1011 || place.type == "CO_TSRDO_MAP" ||
                            place.type == "CO_TMODULE_LIST";

@@ -11,6 +11,8 @@
 
 namespace lexican::codict {
 
+inline constexpr std::uint32_t cob_id_extended = 0x20000000U;  ///< bit of a COB-ID: 29-bit identifier
+
 struct CobId {
   std::string service;      ///< "TPDO 3", "SDO server 1, request"
   std::uint16_t index = 0;  ///< index of the object that holds it; 0: fixed by CiA 301
@@ -21,7 +23,7 @@ struct CobId {
   bool is_safety = false;      ///< frame of an SRDO, or the global fail-safe command [EN 50325-5]
 
   bool is_valid() const { return is_known && !(can_be_invalid && (value & 0x80000000U) != 0); }
-  bool is_extended() const { return (value & 0x20000000U) != 0; }
+  bool is_extended() const { return (value & cob_id_extended) != 0; }
   std::uint32_t identifier() const { return value & (is_extended() ? 0x1FFFFFFFU : 0x7FFU); }
 };
 

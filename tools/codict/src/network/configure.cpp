@@ -15,7 +15,6 @@ namespace lexican::codict::network {
 
 namespace {
 
-constexpr std::uint64_t cob_id_extended = 0x20000000U;
 constexpr std::uint64_t largest_base_identifier = 0x7FF;
 
 constexpr std::uint16_t rpdo_communication = 0x1400;

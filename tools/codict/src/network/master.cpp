@@ -267,7 +267,7 @@ void Master::communication_of(const ActivePdo& partner, std::uint16_t index) {
   const std::uint64_t type =
       network_.nodes[partner.node].number_or(partner.pdo.communication->index, 2, transmission_type::event_profile);
   const std::uint64_t own_type = type <= transmission_type::last_synchronous ? type : transmission_type::event_profile;
-  const std::uint64_t extended = partner.is_extended ? 0x20000000U : 0U;
+  const std::uint64_t extended = partner.is_extended ? cob_id_extended : 0U;
   const auto number = [plan](const auto& planned) { return std::to_string(plan != nullptr ? planned(*plan) : 0); };
   std::vector<Sub> subs = {{1, "COB-ID", 7, "rw", hex(partner.identifier | extended), false},
                            {2, "Transmission type", 5, "rw", std::to_string(own_type), false}};

@@ -13,8 +13,6 @@ namespace lexican::codict::network {
 
 namespace {
 
-constexpr std::uint64_t cob_id_extended = 0x20000000U;
-
 void check_bit_rate(const Network& network, std::size_t at, NetworkFindings& findings) {
   const Node& node = network.nodes[at];
   const std::uint32_t own = node.device.commissioning.bit_rate.value;

@@ -71,7 +71,7 @@ void Collector::add_sync() {
   const auto producer = static_cast<std::size_t>(found);
   const Node& node = network_.nodes[producer];
   const std::uint64_t cob_id = node.number_or(0x1005, 0, 0x80);
-  const bool is_extended = (cob_id & 0x20000000U) != 0;
+  const bool is_extended = (cob_id & cob_id_extended) != 0;
   const bool has_counter = node.number_or(0x1019, 0, 0) != 0;
   sync_period_ = microseconds(node.number_or(0x1006, 0, 0));
   sync_window_ = microseconds(node.number_or(0x1007, 0, 0));

@@ -14,7 +14,7 @@ namespace lexican::codict {
 
 namespace {
 
-constexpr std::string_view node_id = "$nodeid";
+constexpr std::string_view node_id_word = "$nodeid";
 
 constexpr std::uint64_t ones(unsigned bits) {
   return bits >= 64 ? std::numeric_limits<std::uint64_t>::max() : (std::uint64_t{1} << bits) - 1;
@@ -70,7 +70,9 @@ NumberFault fault_of_rest(std::string_view rest, const ParsedInteger& parsed) {
   return parsed.base == Base::octal && is_digit(rest.front()) ? NumberFault::octal_digit : NumberFault::no_number;
 }
 
-bool starts_with_node_id(std::string_view text) { return equal_ignoring_case(text.substr(0, node_id.size()), node_id); }
+bool starts_with_node_id(std::string_view text) {
+  return equal_ignoring_case(text.substr(0, node_id_word.size()), node_id_word);
+}
 
 void add(ParsedInteger& sum, const ParsedInteger& summand, std::size_t offset) {
   if (sum.fault == NumberFault::none && summand.fault != NumberFault::none) {
@@ -186,7 +188,7 @@ ParsedFormula parse_formula(std::string_view text) {
     formula.number = parse_integer(text);
     return formula;
   }
-  formula.is_standard = text.substr(0, node_id.size()) == "$NODEID" && text.find(' ') == std::string_view::npos;
+  formula.is_standard = text.substr(0, node_id_word.size()) == "$NODEID" && text.find(' ') == std::string_view::npos;
   // Text after a comment sign belongs to the last summand, even if it contains a plus.
   for (std::size_t at = 0; at <= text.size() && formula.number.fault != NumberFault::comment;) {
     const std::size_t plus = std::min(text.find('+', at), text.size());
@@ -194,7 +196,7 @@ ParsedFormula parse_formula(std::string_view text) {
     const std::size_t offset = part.empty() ? at : static_cast<std::size_t>(part.data() - text.data());
     if (!formula.has_node_id && starts_with_node_id(part)) {
       formula.has_node_id = true;
-      add(formula.number, behind_node_id(part.substr(node_id.size())), offset + node_id.size());
+      add(formula.number, behind_node_id(part.substr(node_id_word.size())), offset + node_id_word.size());
     } else {
       add(formula.number, parse_integer(part), offset);
     }

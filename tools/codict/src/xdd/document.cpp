@@ -69,11 +69,11 @@ struct Reference {
   std::string_view name;
   char sign;
 };
-constexpr std::array<Reference, 5> references = {
+constexpr std::array<Reference, 5> xml_references = {
     {{"amp", '&'}, {"lt", '<'}, {"gt", '>'}, {"quot", '"'}, {"apos", '\''}}};
 
 bool append_reference(std::string_view name, std::string& text) {
-  for (const Reference& reference : references) {
+  for (const Reference& reference : xml_references) {
     if (reference.name == name) {
       text += reference.sign;
       return true;
