@@ -136,6 +136,7 @@ typedef struct CO_NODE_EXT_T {
   struct OD_T_* Od;  ///< index of the dictionary (co_od.h), or null: no object can be extended
 #endif
   const CO_CALLBACKS* Callbacks;  ///< functions that receive the node and User (co_callbacks.h), or null
+  uint32_t SdoBufLen;             ///< bytes at CO_NODE_SPEC.SdoBuf (CO_SDO_BUFFER()); 0: enough, not checked
 } CO_NODE_EXT;
 
 /// A node. The application uses members as handles (&node.Dict, &node.Emcy, &node.Nmt, &node.Tmr, …), reads NodeId and
@@ -243,7 +244,7 @@ typedef struct CO_NODE_T {
 /// Initialises a node and its drivers and puts the controller on the bus; no frame is sent. The node is then in
 /// CO_INIT, and CONodeGetErr() returns the last error. Only these errors leave the node in CO_INVALID:
 /// - CO_ERR_NODE_EXT, CO_ERR_NODE_CAN, CO_ERR_NODE_TIMER, CO_ERR_NODE_TMR_FREQ: the node calls no driver, now or later;
-/// - CO_ERR_NODE_ID, CO_ERR_NODE_DICT: the drivers are initialised, the controller stays off the bus;
+/// - CO_ERR_NODE_ID, CO_ERR_NODE_DICT, CO_ERR_NODE_SDO_BUF: the drivers are initialised, the controller stays off the bus;
 /// - CO_ERR_DICT_INIT: the drivers are initialised, the controller stays off the bus; CODictGetFault() returns the
 ///   faulty entry.
 ///

@@ -36,7 +36,7 @@ static CO_CAN_MCP2515 Can = {.Spi = &Spi, .Rates = Rates, .RateNum = 1, .Frames 
 
 static CO_NODE Node;
 static CO_TMR_MEM Timers[2];
-static uint8_t SdoBuffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
+CO_SDO_BUFFER(SdoBuffer);
 
 void CanInterrupt(void) { COCanMcp2515Interrupt(&Can); }
 
@@ -68,6 +68,7 @@ int main(void) {
   drivers.Lock = BoardDisableInterrupts;
   drivers.Unlock = BoardEnableInterrupts;
   drivers.Callbacks = &callbacks;
+  drivers.SdoBufLen = SdoBufferLen;
   CONodeInitEx(&Node, &spec, &drivers);
   CONodeStart(&Node);
   do {

@@ -35,7 +35,7 @@ static const CO_OBJ Dictionary[] = {
 };
 
 static CO_NODE Node;
-static uint8_t SdoBuffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
+CO_SDO_BUFFER(SdoBuffer);
 
 CO_NODE* StartNode(CO_NODE_EXT* drivers, const CO_IF_NVM_DRV_EX* memory, const void* context) {
   static CO_NODE_SPEC spec = {.NodeId = 5, .Baudrate = 500000, .TmrFreq = 1000};
@@ -45,6 +45,7 @@ CO_NODE* StartNode(CO_NODE_EXT* drivers, const CO_IF_NVM_DRV_EX* memory, const v
   drivers->Size = sizeof(*drivers);
   drivers->Nvm = memory;             // for example &FlashPagesNvmDriver
   drivers->NvmCtx = (void*)context;  // for example &FlashStm32g4
+  drivers->SdoBufLen = SdoBufferLen;
   CONodeInitEx(&Node, &spec, drivers);
   CONodeStart(&Node);
   return &Node;

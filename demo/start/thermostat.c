@@ -50,7 +50,7 @@ static const CO_OBJ Dictionary[] = {
 };
 
 static CO_NODE Node;
-static uint8_t SdoBuffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
+CO_SDO_BUFFER(SdoBuffer);
 static uint8_t MemoryBytes[128];
 static CO_NVM_RAM Memory = {MemoryBytes, sizeof(MemoryBytes)};
 static CO_NODE_EXT Drivers;
@@ -67,6 +67,7 @@ void ThermostatPowerOn(CO_VIRTUAL_BUS* bus, CO_VIRTUAL_CLOCK* clock) {
     Drivers.TimerCtx = COVirtualTimerNew(clock);
     Drivers.Nvm = &RamNvmDriver;
     Drivers.NvmCtx = &Memory;
+    Drivers.SdoBufLen = SdoBufferLen;
     CONvmRamClear(&Memory);
   } else {  // a power cycle: the RAM loses its contents, the memory does not
     CONodeStop(&Node);

@@ -38,7 +38,7 @@ static const CO_OBJ Dictionary[] = {
 
 static CO_NODE Node;
 static CO_TMR_MEM Timers[2];
-static uint8_t SdoBuffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
+CO_SDO_BUFFER(SdoBuffer);
 static CO_SYSTICK SysTick;
 
 static volatile bool Happened;  // an interrupt has occurred since the current iteration of the loop began
@@ -103,6 +103,7 @@ int main(void) {
   spec.SdoBuf = SdoBuffer;
   drivers.Can = BoardCan;
   drivers.CanCtx = BoardCanContext;
+  drivers.SdoBufLen = SdoBufferLen;
   CONodeInitEx(&Node, &spec, &drivers);
   (void)COTmrCreate(&Node.Tmr, 1000000, 1000000, CountSecond, NULL);
   CONodeStart(&Node);

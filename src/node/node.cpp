@@ -163,13 +163,23 @@ CO_ERR check_drivers(const CO_NODE& node, const CO_NODE_SPEC& spec) {
   return spec.TmrFreq == 0 ? CO_ERR_NODE_TMR_FREQ : CO_ERR_NONE;
 }
 
+// Returns whether the application has given a length of the SDO servers' buffer that is too short.
+bool is_sdo_buffer_short(const CO_NODE& node) {
+  constexpr uint32_t needed = USE_SDO_BLOCK != 0 ? CO_SSDO_N * CO_SDO_BUF_BYTE : 0;
+  const uint32_t length = needed != 0 && node.SdoBuf != nullptr ? node.Ext->SdoBufLen : 0;
+  return length != 0 && length < needed;
+}
+
 // Returns the error because of which the node cannot run with drivers that may be called, or CO_ERR_NONE.
-CO_ERR check_spec(const CO_NODE_SPEC& spec) {
+CO_ERR check_spec(const CO_NODE& node, const CO_NODE_SPEC& spec) {
   const bool is_unconfigured = USE_LSS != 0 && spec.NodeId == wire::no_node_id;
   if (!wire::is_node_id(spec.NodeId) && !is_unconfigured) {
     return CO_ERR_NODE_ID;
   }
-  return spec.Dict == nullptr || spec.DictLen == 0 ? CO_ERR_NODE_DICT : CO_ERR_NONE;
+  if (spec.Dict == nullptr || spec.DictLen == 0) {
+    return CO_ERR_NODE_DICT;
+  }
+  return is_sdo_buffer_short(node) ? CO_ERR_NODE_SDO_BUF : CO_ERR_NONE;
 }
 
 // Copies the drivers that the extension names.
@@ -195,7 +205,7 @@ CO_ERR begin(CO_NODE& node, const CO_NODE_SPEC& spec) {
   }
   COTmrInit(&node.Tmr, &node, spec.TmrMem, spec.TmrNum, spec.TmrFreq);
   transmit::init(node);
-  return err != CO_ERR_NONE ? err : check_spec(spec);
+  return err != CO_ERR_NONE ? err : check_spec(node, spec);
 }
 
 // Clears the node and copies its specification.

@@ -108,6 +108,7 @@ static const struct {
     ROW(CO_ERR_NODE_DICT, 0x15A),
     ROW(CO_ERR_PARA_OVERLAP, 0x15B),
     ROW(CO_ERR_OBJ_RANGE_LOW, 0x15C),
+    ROW(CO_ERR_NODE_SDO_BUF, 0x15D),
 };
 
 #define EXPECTED_NUM (sizeof(Expected) / sizeof(Expected[0]))

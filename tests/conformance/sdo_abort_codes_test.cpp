@@ -121,7 +121,7 @@ TEST_CASE("SDO abort codes: each error code is sent as its abort code, expedited
       {CO_ERR_TYPE_RD, "20000008"},          {CO_ERR_TYPE_WR, "20000008"},       {CO_ERR_OBJ_STATE, "22000008"},
       {CO_ERR_OBJ_NO_DATA, "24000008"},      {CO_ERR_OBJ_RANGE_LOW, "32000906"}, {CO_ERR_PARA_OVERLAP, "00000606"},
   };
-  for (int number = CO_ERR_BASE; number <= CO_ERR_OBJ_RANGE_LOW; ++number) {
+  for (int number = CO_ERR_BASE; number <= CO_ERR_NODE_SDO_BUF; ++number) {
     const auto error = static_cast<CO_ERR>(number);
     std::string code = "00000008";
     for (const Row& row : rows) {

@@ -18,7 +18,7 @@ static CO_VIRTUAL_BUS* Bus;
 static CO_VIRTUAL_PORT* Master;
 static CO_VIRTUAL_CLOCK* Clock;
 static CO_VIRTUAL_TIMER* Timer;
-static uint8_t SdoBuffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
+CO_SDO_BUFFER(SdoBuffer);
 static uint8_t MemoryBytes[1024];
 static CO_NVM_RAM Memory = {MemoryBytes, sizeof(MemoryBytes)};
 static char Sent[1024];    // frames since the last call
@@ -60,6 +60,7 @@ void setUp(void) {
   Spec.SdoBuf = SdoBuffer;
   memset(&Ext, 0, sizeof(Ext));
   Ext.Size = sizeof(Ext);
+  Ext.SdoBufLen = SdoBufferLen;
   Ext.Can = &COVirtualBusDriver;
   Ext.CanCtx = COVirtualBusAttach(Bus, "node");
   Ext.Timer = &COVirtualTimerDriver;

@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr unsigned last_error = 0x15C;
+constexpr unsigned last_error = 0x15D;
 constexpr unsigned last_fault = 12;
 
 // Checks that the text is one line that can follow the name of an error in a message.
@@ -38,7 +38,7 @@ TEST_CASE("error names: each error has a unique name and meaning") {
   }
   CHECK(COErrName(CO_ERR_BAD_ARG) == std::string("CO_ERR_BAD_ARG"));
   CHECK(COErrText(CO_ERR_BAD_ARG) == std::string("an argument is null, out of range or of the wrong length"));
-  CHECK(COErrName(CO_ERR_OBJ_RANGE_LOW) == std::string("CO_ERR_OBJ_RANGE_LOW"));
+  CHECK(COErrName(CO_ERR_NODE_SDO_BUF) == std::string("CO_ERR_NODE_SDO_BUF"));
   CHECK(COErrText(CO_ERR_OBJ_RANGE_LOW) == std::string("the value is too low (SDO abort 0609 0032h)"));
 }
 
@@ -73,6 +73,6 @@ TEST_CASE("error names: each fault of a dictionary has a name and a meaning") {
 // The numbers must not change, because firmware logs them.
 static_assert(CO_DICT_NOT_ASCENDING == 1 && CO_DICT_NO_DATA == 3 && CO_DICT_WRONG_PLACE == 6);
 static_assert(CO_DICT_DIRECT_CONST == 9 && CO_DICT_PARA_OVERLAP == last_fault);
-static_assert(CO_ERR_OBJ_RANGE_LOW == last_error);
+static_assert(CO_ERR_OBJ_RANGE_LOW == 0x15C && CO_ERR_NODE_SDO_BUF == last_error);
 
 }  // namespace

@@ -56,6 +56,13 @@ struct Device {
   }
 };
 
+std::uint8_t sdo_buffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
+
+void short_sdo_buffer(Device& device) {
+  device.spec.SdoBuf = sdo_buffer;
+  device.ext.SdoBufLen = sizeof sdo_buffer - 1;
+}
+
 struct Failure {
   std::string name;
   CO_ERR error;
@@ -74,6 +81,9 @@ const std::vector<Failure>& failures() {
     {"extension without size", CO_ERR_NODE_EXT, false, [](Device& d) { d.ext.Size = 0; }},
     {"no dictionary", CO_ERR_NODE_DICT, true, [](Device& d) { d.spec.Dict = nullptr; }},
     {"a dictionary of length 0", CO_ERR_NODE_DICT, true, [](Device& d) { d.spec.DictLen = 0; }},
+#if USE_SDO_BLOCK
+    {"a short SDO buffer", CO_ERR_NODE_SDO_BUF, true, short_sdo_buffer},
+#endif
 #if USE_DICT_CHECK
     {"doubled entry", CO_ERR_DICT_INIT, true, [](Device& d) { d.dictionary[1].Key = d.dictionary[0].Key; }},
     {"entry without type", CO_ERR_DICT_INIT, true, [](Device& d) { d.dictionary[1].Type = nullptr; }},
@@ -97,6 +107,18 @@ void with_each_failure(const Function& function) {
     CHECK((failure.has_drivers || read == 0));
     CHECK(enabled == 0);
   }
+}
+
+TEST_CASE("CO_NODE_EXT.SdoBufLen: 0, the length of all buffers and any length without a buffer are accepted") {
+  for (const std::uint32_t length : {std::uint32_t{0}, std::uint32_t{sizeof sdo_buffer}}) {
+    Device device;
+    device.spec.SdoBuf = sdo_buffer;
+    device.ext.SdoBufLen = length;
+    CHECK(device.init() == CO_ERR_NONE);
+  }
+  Device device;
+  device.ext.SdoBufLen = 1;
+  CHECK(device.init() == CO_ERR_NONE);
 }
 
 TEST_CASE("CONodeInitCtx: does not use classic drivers") {

@@ -66,7 +66,7 @@ constexpr const char* main_source =
 static CO_NODE Node;
 static CO_NODE_SPEC Spec;
 static CO_NODE_EXT Drivers;
-static uint8_t SdoBuffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
+CO_SDO_BUFFER(SdoBuffer);
 @STORAGE_DATA@static bool HasBootUp;
 @TPDO_DATA@
 static void PrintFrame(void* clock, const CO_IF_FRM* frame, const char* sender) {
@@ -115,6 +115,7 @@ int main(void) {
   Drivers.CanCtx = COVirtualBusAttach(bus, "node");
   Drivers.Timer = &COVirtualTimerDriver;
   Drivers.TimerCtx = COVirtualTimerNew(clock);
+  Drivers.SdoBufLen = SdoBufferLen;
 @STORAGE_INIT@
   CONodeInitEx(&Node, &Spec, &Drivers);
   CONodeStart(&Node);
