@@ -325,12 +325,10 @@ CO_TMR_MEM* take_free(CO_TMR& t) {
   return timer;
 }
 
-}  // namespace
-
 // Multiplies bit by bit: on the smallest CPUs a 64-bit product would need a library function.
-uint32_t ticks(const CO_TMR& timers, uint32_t time, uint32_t unit) {
+[[gnu::noinline]] uint32_t ticks_at(uint32_t frequency, uint32_t time, uint32_t unit) {
   uint64_t product = unit - 1U;
-  for (uint64_t part = timers.Freq; time != 0; time >>= 1, part *= 2) {
+  for (uint64_t part = frequency; time != 0; time >>= 1, part *= 2) {
     if ((time & 1U) != 0) {
       product += part;
     }
@@ -338,8 +336,13 @@ uint32_t ticks(const CO_TMR& timers, uint32_t time, uint32_t unit) {
   return product >> 32 >= unit ? 0 : static_cast<uint32_t>(divide(product, unit));
 }
 
+}  // namespace
+
+uint32_t ticks(const CO_NODE& node, uint32_t time, uint32_t unit) { return ticks_at(node.Tmr.Freq, time, unit); }
+
 // Divides whole seconds first, so that each quotient fits into 32 bits, and multiplies the rest by 1000.
-uint32_t milliseconds(const CO_TMR& timers, uint32_t ticks, uint32_t& rest) {
+uint32_t milliseconds(const CO_NODE& node, uint32_t ticks, uint32_t& rest) {
+  const CO_TMR& timers = node.Tmr;
   CO_ASSERT(timers.Freq != 0 && rest < timers.Freq);
   const uint64_t seconds = divide(ticks, timers.Freq);
   const uint64_t part = seconds >> 32;
@@ -348,29 +351,32 @@ uint32_t milliseconds(const CO_TMR& timers, uint32_t ticks, uint32_t& rest) {
   return static_cast<uint32_t>(seconds) * 1000U + static_cast<uint32_t>(split);
 }
 
-void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
+void start(CO_NODE& node, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
+  CO_TMR& timers = node.Tmr;
   const Lock lock(timers);
   remove(timers, timer);
   arm(timers, timer, start, cycle, func, para);
 }
 
-void restart(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks) {
+void restart(CO_NODE& node, CO_TMR_MEM& timer, uint32_t ticks) {
+  CO_TMR& timers = node.Tmr;
   const Lock lock(timers);
   remove(timers, timer);
   rearm(timers, timer, ticks);
 }
 
-void stop(CO_TMR& timers, CO_TMR_MEM& timer) {
-  const Lock lock(timers);
-  remove(timers, timer);
+void stop(CO_NODE& node, CO_TMR_MEM& timer) {
+  const Lock lock(node.Tmr);
+  remove(node.Tmr, timer);
 }
 
-uint32_t now(CO_TMR& timers) {
-  const Lock lock(timers);
-  return port::now(*timers.Node);
+uint32_t now(CO_NODE& node) {
+  const Lock lock(node.Tmr);
+  return port::now(node);
 }
 
-uint32_t next_deadline(CO_TMR& timers) {
+uint32_t next_deadline(CO_NODE& node) {
+  CO_TMR& timers = node.Tmr;
   const Lock lock(timers);
   const uint32_t now = synchronise(timers);
   if (has_work(timers)) {
@@ -431,7 +437,7 @@ void COTmrInit(CO_TMR* tmr, CO_NODE* node, CO_TMR_MEM* mem, uint16_t num, uint32
 
 uint32_t COTmrGetTicks(CO_TMR* tmr, uint16_t time, uint32_t unit) {
   ASSERT_PTR_ERR(tmr, 0);
-  return tmr::ticks(*tmr, time, unit);
+  return tmr::ticks_at(tmr->Freq, time, unit);
 }
 
 uint16_t COTmrGetMinTime(CO_TMR* tmr, uint32_t unit) {

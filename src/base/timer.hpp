@@ -11,18 +11,18 @@ namespace co::tmr {
 
 // Converts a time in units of 1/unit seconds (CO_TMR_UNIT_…) to ticks, rounded up. Returns 0 if time, unit or the timer
 // frequency is 0, or the result exceeds 32 bits.
-[[nodiscard]] uint32_t ticks(const CO_TMR& timers, uint32_t time, uint32_t unit);
+[[nodiscard]] uint32_t ticks(const CO_NODE& node, uint32_t time, uint32_t unit);
 
 // Starts a timer that is part of its owner; a running timer is restarted. start and cycle: ticks, as in COTmrCreate(),
 // not both 0.
-void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para);
+void start(CO_NODE& node, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para);
 
 // Restarts a one-shot timer, from its own action: it elapses the given ticks after its last expiry or, if that time is
 // over, at the next multiple of them.
-void restart(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks);
+void restart(CO_NODE& node, CO_TMR_MEM& timer, uint32_t ticks);
 
 // Stops a timer that is part of its owner; no effect on a stopped timer.
-void stop(CO_TMR& timers, CO_TMR_MEM& timer);
+void stop(CO_NODE& node, CO_TMR_MEM& timer);
 
 // Returns the link to the first armed timer. Atomic: called without the timer lock, too.
 [[nodiscard]] inline CO_TMR_MEM** first_armed(const CO_TMR& timers) {
@@ -59,13 +59,13 @@ inline void assign_to_real_time(CO_TMR_MEM&) {}
 
 // Returns the clock: ticks since any moment, modulo 2^32. With a classic driver the clock runs only while a timer is
 // armed.
-[[nodiscard]] uint32_t now(CO_TMR& timers);
+[[nodiscard]] uint32_t now(CO_NODE& node);
 
 // Converts ticks of the clock to milliseconds. rest: part of a millisecond that was left by the last call, in units of
 // 1 ms / ticks per second; 0 at first. The timer frequency is not 0.
-[[nodiscard]] uint32_t milliseconds(const CO_TMR& timers, uint32_t ticks, uint32_t& rest);
+[[nodiscard]] uint32_t milliseconds(const CO_NODE& node, uint32_t ticks, uint32_t& rest);
 
 // Returns the ticks until COTmrService() or COTmrProcess() has work; UINT32_MAX: no timer is armed.
-[[nodiscard]] uint32_t next_deadline(CO_TMR& timers);
+[[nodiscard]] uint32_t next_deadline(CO_NODE& node);
 
 }  // namespace co::tmr

@@ -559,14 +559,14 @@ uint32_t CONodeNextDeadline(CO_NODE* node) {
   if (node::is_awaited(*node)) {
     return 0;
   }
-  const uint32_t timers = tmr::next_deadline(node->Tmr);
+  const uint32_t timers = tmr::next_deadline(*node);
   if (!node::waits_to_send(*node)) {
     return timers;
   }
   if (transmit::is_paced(*node)) {
     return 0;
   }
-  const uint32_t retry = tmr::ticks(node->Tmr, 1, CO_TMR_UNIT_1MS);
+  const uint32_t retry = tmr::ticks(*node, 1, CO_TMR_UNIT_1MS);
   return retry < timers ? retry : timers;
 }
 

@@ -21,8 +21,8 @@ void refill(void* node_pointer) {
 
 // Starts the timer that refills the budget: each minute, or at the end of the timer's range if that is shorter.
 void start(CO_NODE& node) {
-  const uint32_t ticks = tmr::ticks(node.Tmr, refill_time, CO_TMR_UNIT_1MS);
-  tmr::start(node.Tmr, node.BudgetTmr, 0, ticks != 0 ? ticks : UINT32_MAX, refill, &node);
+  const uint32_t ticks = tmr::ticks(node, refill_time, CO_TMR_UNIT_1MS);
+  tmr::start(node, node.BudgetTmr, 0, ticks != 0 ? ticks : UINT32_MAX, refill, &node);
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ bool take_store(CO_NODE& node) {
   return true;
 }
 
-void stop(CO_NODE& node) { tmr::stop(node.Tmr, node.BudgetTmr); }
+void stop(CO_NODE& node) { tmr::stop(node, node.BudgetTmr); }
 
 }  // namespace co::budget
 

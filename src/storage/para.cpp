@@ -239,11 +239,11 @@ void save_changes(CO_NODE& node) {
 }
 
 void init(CO_NODE& node) {
-  const uint32_t period = tmr::ticks(node.Tmr, CO_PARA_PERIOD, CO_TMR_UNIT_1MS);
+  const uint32_t period = tmr::ticks(node, CO_PARA_PERIOD, CO_TMR_UNIT_1MS);
   if (node.Nmt.Mode == CO_INIT && period != 0 && has_autonomous_group(node)) {
-    tmr::start(node.Tmr, node.ParaTmr, 0, period, save_periodically, &node);
+    tmr::start(node, node.ParaTmr, 0, period, save_periodically, &node);
   } else {
-    tmr::stop(node.Tmr, node.ParaTmr);
+    tmr::stop(node, node.ParaTmr);
   }
 }
 
@@ -258,7 +258,7 @@ void on_write(CO_NODE& node, const CO_OBJ& obj) {
 
 void on_mode(CO_NODE& node) {
   if (node.Nmt.Mode == CO_INVALID) {
-    tmr::stop(node.Tmr, node.ParaTmr);
+    tmr::stop(node, node.ParaTmr);
     budget::stop(node);
   }
 }

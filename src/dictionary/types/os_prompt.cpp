@@ -54,7 +54,7 @@ void stop_timer(CO_NODE& node, CO_TMR_MEM& timer) {
     running = running->Next;
   }
   if (running != nullptr) {
-    tmr::stop(node.Tmr, timer);
+    tmr::stop(node, timer);
   }
   timer = {};
 }
@@ -77,9 +77,9 @@ CO_ERR init_output(CO_OBJ* obj, CO_NODE* node) {
 void on_time(void* output_pointer);
 
 void start_timer(CO_OS_OUTPUT& output, uint16_t ms) {
-  CO_TMR& timers = output.Node->Tmr;
-  const uint32_t ticks = tmr::ticks(timers, ms, CO_TMR_UNIT_1MS);
-  tmr::start(timers, output.Tmr, ticks != 0 ? ticks : 1, 0, on_time, &output);
+  CO_NODE& node = *output.Node;
+  const uint32_t ticks = tmr::ticks(node, ms, CO_TMR_UNIT_1MS);
+  tmr::start(node, output.Tmr, ticks != 0 ? ticks : 1, 0, on_time, &output);
 }
 
 // Removes the oldest character; there is one.

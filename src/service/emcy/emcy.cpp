@@ -233,7 +233,7 @@ void on_mode(CO_NODE& node) {
   if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
     stop_inhibit_time(node);
     for (CO_TMR_MEM& timer : node.Emcy.Hold) {
-      tmr::stop(node.Tmr, timer);
+      tmr::stop(node, timer);
     }
   }
 }
@@ -243,7 +243,7 @@ void raise(CO_NODE& node, Fault fault, uint32_t detail) {
   const auto kind = static_cast<uint8_t>(fault);
   uint16_t& number = number_of(node, fault);
   if (kind < CO_EMCY_HOLD_N) {
-    tmr::start(node.Tmr, node.Emcy.Hold[kind], node.Tmr.Freq, 0, resolve_held, &node);
+    tmr::start(node, node.Emcy.Hold[kind], node.Tmr.Freq, 0, resolve_held, &node);
   }
   if (kind <= static_cast<uint8_t>(Fault::passive) && number != 0) {
     return;

@@ -41,8 +41,8 @@ void send_until_inhibited(CO_NODE& node, uint32_t identifier) {
       pause = inhibit_time(node);
     }
     if (pause != 0) {
-      const uint32_t ticks = tmr::ticks(node.Tmr, pause, CO_TMR_UNIT_100US);  // 0: beyond the timer's range
-      tmr::start(node.Tmr, emcy.Tmr, ticks != 0 ? ticks : UINT32_MAX, 0, on_time, &node);
+      const uint32_t ticks = tmr::ticks(node, pause, CO_TMR_UNIT_100US);  // 0: beyond the timer's range
+      tmr::start(node, emcy.Tmr, ticks != 0 ? ticks : UINT32_MAX, 0, on_time, &node);
       return;
     }
   }
@@ -93,7 +93,7 @@ void send_waiting(CO_NODE& node) {
   }
 }
 
-void stop_inhibit_time(CO_NODE& node) { tmr::stop(node.Tmr, node.Emcy.Tmr); }
+void stop_inhibit_time(CO_NODE& node) { tmr::stop(node, node.Emcy.Tmr); }
 
 void withdraw(CO_NODE& node, uint32_t identifier) {
   for (; node.Emcy.Waiting != 0; --node.Emcy.Waiting) {

@@ -17,7 +17,7 @@ namespace {
 uint32_t life_time(CO_NODE& node) {
   const uint32_t guard_time = dict::read_number(node, CO_DEV(0x100C, 0), sizeof(uint16_t), 0);  // ms
   const uint32_t factor = dict::read_number(node, CO_DEV(0x100D, 0), sizeof(uint8_t), 0);
-  return tmr::ticks(node.Tmr, guard_time * factor, CO_TMR_UNIT_1MS);
+  return tmr::ticks(node, guard_time * factor, CO_TMR_UNIT_1MS);
 }
 
 // Returns whether a heartbeat is produced, which replaces guarding. [301:7.2.8.2.2.1]
@@ -48,9 +48,9 @@ void find_master(CO_NODE& node) {
 // Starts the life time again; 0 ticks: stops life guarding.
 void restart_life(CO_NODE& node, uint32_t ticks) {
   if (ticks == 0) {
-    tmr::stop(node.Tmr, node.GuardTmr);
+    tmr::stop(node, node.GuardTmr);
   } else {
-    tmr::start(node.Tmr, node.GuardTmr, ticks, 0, lose_master, &node);
+    tmr::start(node, node.GuardTmr, ticks, 0, lose_master, &node);
   }
 }
 
@@ -81,7 +81,7 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t) {
 
 void on_mode(CO_NODE& node) {
   if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
-    tmr::stop(node.Tmr, node.GuardTmr);
+    tmr::stop(node, node.GuardTmr);
   }
 }
 

@@ -47,16 +47,16 @@ uint32_t ticks_left(const CO_HB_WATCH& watch, uint32_t now) {
 
 // Starts the timer with the shortest of the remaining times.
 void plan(CO_NODE& node) {
-  const uint32_t now = tmr::now(node.Tmr);
+  const uint32_t now = tmr::now(node);
   uint32_t next = 0;  // ticks; 0: no node is monitored
   for (const CO_HB_WATCH& watch : node.HbCons) {
     const uint32_t left = is_watching(watch) ? ticks_left(watch, now) : next;
     next = next == 0 || left < next ? left : next;
   }
   if (next == 0) {
-    tmr::stop(node.Tmr, node.HbConsTmr);
+    tmr::stop(node, node.HbConsTmr);
   } else {
-    tmr::start(node.Tmr, node.HbConsTmr, next, 0, check, &node);
+    tmr::start(node, node.HbConsTmr, next, 0, check, &node);
   }
 }
 
@@ -77,7 +77,7 @@ void miss(CO_NODE& node, CO_HBCONS& cons) {
 // Checks all nodes. The timer is started only after all callbacks have returned, because they may change the entries.
 void check(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
-  const uint32_t now = tmr::now(node.Tmr);
+  const uint32_t now = tmr::now(node);
   for (CO_HB_WATCH& watch : node.HbCons) {
     const uint32_t passed = now - watch.Seen;
     if (is_watching(watch) && passed >= watch.Period) {
@@ -115,7 +115,7 @@ void stop(CO_NODE& node, CO_HB_WATCH& watch) {
 // Configures an entry: its node is monitored from its first heartbeat on. The caller updates timer and routes.
 CO_ERR start(CO_NODE& node, CO_HB_WATCH& watch, uint16_t ms, uint8_t node_id) {
   const bool active = is_active(ms, node_id);
-  const uint32_t period = active ? tmr::ticks(node.Tmr, ms, CO_TMR_UNIT_1MS) : 0;
+  const uint32_t period = active ? tmr::ticks(node, ms, CO_TMR_UNIT_1MS) : 0;
   const CO_HB_WATCH* const other = active ? find(node, node_id) : nullptr;
   if (other != nullptr && other != &watch) {
     return CO_ERR_OBJ_INCOMPATIBLE;
@@ -217,7 +217,7 @@ void on_mode_consumer(CO_NODE& node) {
   for (CO_HB_WATCH& watch : node.HbCons) {
     stop(node, watch);
   }
-  tmr::stop(node.Tmr, node.HbConsTmr);
+  tmr::stop(node, node.HbConsTmr);
 }
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
@@ -228,7 +228,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   CO_HB_WATCH& watch = node.HbCons[number - 1];
   CO_ASSERT(watch.Cons != nullptr && watch.Period != 0);
   const int16_t state = wire::state_of(frame);
-  watch.Seen = tmr::now(node.Tmr);
+  watch.Seen = tmr::now(node);
   // CONmtHbConsChange() is called for changes of the state, and for each boot-up message.
   if (state != watch.Cons->Tmr || state == wire::heartbeat_state(CO_INIT)) {
     hear(node, *watch.Cons, state);

@@ -18,13 +18,13 @@ void send(void* node_pointer) {
   transmit::send_latest(node, wire::error_control(node.NodeId, node.Nmt.Mode));
 }
 
-uint32_t period(const CO_NODE& node, uint32_t ms) { return tmr::ticks(node.Tmr, ms, CO_TMR_UNIT_1MS); }
+uint32_t period(const CO_NODE& node, uint32_t ms) { return tmr::ticks(node, ms, CO_TMR_UNIT_1MS); }
 
 void restart(CO_NODE& node, uint32_t ticks) {
   if (ticks == 0) {
-    tmr::stop(node.Tmr, node.HbProdTmr);
+    tmr::stop(node, node.HbProdTmr);
   } else {
-    tmr::start(node.Tmr, node.HbProdTmr, 0, ticks, send, &node);
+    tmr::start(node, node.HbProdTmr, 0, ticks, send, &node);
   }
 }
 
@@ -57,7 +57,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 // Starts the producer at the boot-up message, which counts as the first heartbeat; it runs in all NMT states.
 void on_mode(CO_NODE& node) {
   if (!is_allowed(node)) {
-    tmr::stop(node.Tmr, node.HbProdTmr);
+    tmr::stop(node, node.HbProdTmr);
     return;
   }
   if (!tmr::is_running(node.HbProdTmr)) {

@@ -104,12 +104,12 @@ void tick(void* node_pointer) {
 // Starts or stops the timer, which runs while an LED blinks or flashes.
 void run_timer(CO_NODE& node, bool runs) {
   CO_LED& led = node.Led;
-  const uint32_t ticks = tmr::ticks(node.Tmr, step, CO_TMR_UNIT_1MS);
+  const uint32_t ticks = tmr::ticks(node, step, CO_TMR_UNIT_1MS);
   if (!runs || ticks == 0) {
-    tmr::stop(node.Tmr, led.Tmr);
+    tmr::stop(node, led.Tmr);
   } else if (!tmr::is_running(led.Tmr)) {
     led.Phase = 0;
-    tmr::start(node.Tmr, led.Tmr, 0, ticks, tick, &node);
+    tmr::start(node, led.Tmr, 0, ticks, tick, &node);
   }
 }
 

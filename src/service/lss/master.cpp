@@ -57,17 +57,17 @@ void on_time(void* master_pointer);
 
 // Enters a state and starts its time. Times beyond the timer's range are limited to the longest time.
 void enter_state(CO_LSSM& master, State state) {
-  CO_TMR& timers = master.Node->Tmr;
+  CO_NODE& node = *master.Node;
   set_state(master, state);
-  const uint32_t ticks = tmr::ticks(timers, time_of(master), CO_TMR_UNIT_1MS);
-  tmr::start(timers, master.Tmr, ticks != 0 ? ticks : UINT32_MAX, 0, on_time, &master);
+  const uint32_t ticks = tmr::ticks(node, time_of(master), CO_TMR_UNIT_1MS);
+  tmr::start(node, master.Tmr, ticks != 0 ? ticks : UINT32_MAX, 0, on_time, &master);
 }
 
 // Ends the service and calls its callback. Must be the last action: the callback may start the next service.
 void finish(CO_LSSM& master, CO_LSSM_RESULT result) {
   CO_NODE& node = *master.Node;
   node.IsTransmitOff = is_switching(master) ? 0 : node.IsTransmitOff;
-  tmr::stop(node.Tmr, master.Tmr);
+  tmr::stop(node, master.Tmr);
   set_state(master, State::idle);
   master.Call(&master, result);
 }
@@ -182,7 +182,7 @@ CO_ERR activate(CO_LSSM& master, CO_LSSM_CALLBACK callback, uint32_t delay) {
   CO_ERR err = begin(master, callback, {first(Lss::activate_bit_timing), 1, Lss{}, State::silent}, &delay);
   if (err == CO_ERR_NONE && transmit::is_waiting(node)) {
     transmit::withdraw(node, wire::lss_request);
-    tmr::stop(node.Tmr, master.Tmr);
+    tmr::stop(node, master.Tmr);
     set_state(master, State::idle);
     err = CO_ERR_IF_CAN_SEND;
   }

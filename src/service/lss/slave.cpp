@@ -204,7 +204,7 @@ void call_after_delay(CO_NODE& node, CO_TMR_FUNC then) {
   if (node.Lss.Delay == 0) {
     then(&node);
   } else {
-    tmr::start(node.Tmr, node.Lss.Tmr, node.Lss.Delay, 0, then, &node);
+    tmr::start(node, node.Lss.Tmr, node.Lss.Delay, 0, then, &node);
   }
 }
 
@@ -235,7 +235,7 @@ void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   if (ask_application(node, access) != 0 || !prepare_switch(node, access.Mode)) {
     return;
   }
-  const uint32_t ticks = tmr::ticks(node.Tmr, delay, CO_TMR_UNIT_1MS);
+  const uint32_t ticks = tmr::ticks(node, delay, CO_TMR_UNIT_1MS);
   node.Lss.Delay = delay != 0 && ticks == 0 ? UINT32_MAX : ticks;
   node.Baudrate = node.Lss.CfgBaudrate;  // kept by CO_NODE.Baudrate, because a reset may load other values meanwhile
   node.IsTransmitOff = 1;
@@ -416,7 +416,7 @@ void init(CO_NODE& node) {
 
 void on_mode(CO_NODE& node) {
   if (node.Nmt.Mode == CO_INVALID) {
-    tmr::stop(node.Tmr, node.Lss.Tmr);
+    tmr::stop(node, node.Lss.Tmr);
     node.IsTransmitOff = 0;
   }
 }

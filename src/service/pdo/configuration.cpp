@@ -24,7 +24,7 @@ uint8_t start_value(CO_NODE& node, unsigned number) {
   return static_cast<uint8_t>(read_number(node, CO_DEV(first_tpdo + number, 6), sizeof(uint8_t), 0));
 }
 
-uint32_t ticks(const CO_NODE& node, uint32_t time, uint32_t unit) { return tmr::ticks(node.Tmr, time, unit); }
+uint32_t ticks(const CO_NODE& node, uint32_t time, uint32_t unit) { return tmr::ticks(node, time, unit); }
 
 // Resolves the mapping without a check of flag P: a write by the network checked it, a static mapping needs none.
 Resolved resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map) {

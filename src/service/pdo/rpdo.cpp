@@ -156,14 +156,14 @@ void report(CO_RPDO& pdo, unsigned flags, unsigned is) {
 
 void restart_deadline(CO_RPDO& pdo) {
   if (pdo.Deadline != 0) {
-    tmr::start(pdo.Node->Tmr, pdo.Tmr, pdo.Deadline, 0, on_deadline, &pdo);
+    tmr::start(*pdo.Node, pdo.Tmr, pdo.Deadline, 0, on_deadline, &pdo);
   }
   report(pdo, late, 0);  // its callbacks may end the PDO
 }
 
 // Stops the deadline and resolves all faults.
 void end_rpdo(CO_NODE& node, CO_PDO& pdo) {
-  tmr::stop(node.Tmr, pdo.Tmr);
+  tmr::stop(node, pdo.Tmr);
   clear(pdo.Map, served);
   report(pdo, reported, 0);
   mpdo::end_rpdo(pdo);
@@ -184,7 +184,7 @@ void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks) {
   const bool is_expected = tmr::is_running(pdo.Tmr);
   pdo.Deadline = ticks;
   if (ticks == 0) {
-    tmr::stop(node.Tmr, pdo.Tmr);
+    tmr::stop(node, pdo.Tmr);
   }
   if (ticks == 0 || is_expected) {
     restart_deadline(pdo);

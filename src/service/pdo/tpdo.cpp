@@ -77,7 +77,7 @@ CO_ERR serve(CO_TPDO& pdo, Use use) {
 
 void on_time(void* pdo_pointer);
 
-void start(CO_TPDO& pdo, uint32_t ticks) { tmr::start(pdo.Node->Tmr, pdo.Tmr, ticks, 0, on_time, &pdo); }
+void start(CO_TPDO& pdo, uint32_t ticks) { tmr::start(*pdo.Node, pdo.Tmr, ticks, 0, on_time, &pdo); }
 
 // Restarts the inhibit or event time after a transmission. An inhibit time never starts before the transmission.
 [[gnu::always_inline]] inline void restart_by(CO_TPDO& pdo, Cause cause) {
@@ -88,7 +88,7 @@ void start(CO_TPDO& pdo, uint32_t ticks) { tmr::start(pdo.Node->Tmr, pdo.Tmr, ti
   } else if (time.Event == 0) {
     return;
   } else if (cause == Cause::timer) {
-    tmr::restart(pdo.Node->Tmr, pdo.Tmr, time.Event);
+    tmr::restart(*pdo.Node, pdo.Tmr, time.Event);
   } else {
     start(pdo, time.Event);
   }
@@ -108,7 +108,7 @@ void end_inhibit(CO_TPDO& pdo) {
     }
     (void)send_event(pdo, Cause::timer);
   } else if (time.Event != 0) {
-    tmr::restart(pdo.Node->Tmr, pdo.Tmr, time.Event - time.Inhibit);
+    tmr::restart(*pdo.Node, pdo.Tmr, time.Event - time.Inhibit);
   }
 }
 
@@ -314,7 +314,7 @@ CO_ERR send_event(CO_TPDO& pdo, Cause cause) {
 void restart(CO_TPDO& pdo) { restart_by(pdo, Cause::event); }
 
 void end_tpdo(CO_NODE& node, CO_PDO& pdo) {
-  tmr::stop(node.Tmr, pdo.Tmr);
+  tmr::stop(node, pdo.Tmr);
   clear(pdo.Map, served);
   transmit::withdraw(node, pdo.Identifier);
 }
@@ -346,7 +346,7 @@ void change_event_time(CO_NODE& node, unsigned number, uint32_t ticks) {
   if (has(pdo.Map, inhibited) || !is_operational(node)) {
     return;
   }
-  tmr::stop(node.Tmr, pdo.Tmr);
+  tmr::stop(node, pdo.Tmr);
   if (ticks != 0) {
     start(pdo, ticks);
   }

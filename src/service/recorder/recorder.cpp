@@ -38,8 +38,8 @@ bool is_started(const CO_RECORDER* recorder) {
 // Updates the time of the recorders and returns it, in milliseconds.
 uint32_t count_time(CO_NODE& node) {
   CO_RECORDERS& all = node.Recorders;
-  const uint32_t now = tmr::now(node.Tmr);
-  all.Time += tmr::milliseconds(node.Tmr, now - all.Tick, all.Rest);
+  const uint32_t now = tmr::now(node);
+  all.Time += tmr::milliseconds(node, now - all.Tick, all.Rest);
   all.Tick = now;
   return all.Time;
 }
@@ -49,7 +49,7 @@ uint32_t cycle_of(const CO_NODE& node, const CO_RECORDER_CONFIG& config) {
   if (config.Period == 0) {
     return longest_cycle;
   }
-  const uint32_t ticks = tmr::ticks(node.Tmr, config.Period, CO_TMR_UNIT_1MS);
+  const uint32_t ticks = tmr::ticks(node, config.Period, CO_TMR_UNIT_1MS);
   return ticks <= longest_cycle ? ticks : 0;
 }
 
@@ -210,7 +210,7 @@ void on_time(void* recorder_pointer) {
 
 void start_timer(CO_RECORDER& recorder) {
   CO_NODE& node = *recorder.Node;
-  tmr::start(node.Tmr, recorder.Tmr, 0, cycle_of(node, recorder.Config), on_time, &recorder);
+  tmr::start(node, recorder.Tmr, 0, cycle_of(node, recorder.Config), on_time, &recorder);
 }
 
 // Adds a recorder to the list of the node, unless it is there. Before, the state of its timer is not valid.
@@ -219,7 +219,7 @@ void list(CO_NODE& node, CO_RECORDER& recorder) {
     return;
   }
   if (node.Recorders.First == nullptr) {
-    node.Recorders.Tick = tmr::now(node.Tmr);
+    node.Recorders.Tick = tmr::now(node);
   }
   recorder.Node = &node;
   recorder.Tmr = {};
@@ -232,7 +232,7 @@ void list(CO_NODE& node, CO_RECORDER& recorder) {
 CO_ERR start(CO_NODE& node, CO_RECORDER& recorder) {
   const CO_ERR err = check(node, recorder, recorder.Config);
   list(node, recorder);
-  tmr::stop(node.Tmr, recorder.Tmr);
+  tmr::stop(node, recorder.Tmr);
   empty(recorder);
   if (err != CO_ERR_NONE) {
     recorder.State = idle;
@@ -291,7 +291,7 @@ void on_mode(CO_NODE& node) {
     return;
   }
   for (CO_RECORDER* recorder = node.Recorders.First; recorder != nullptr; recorder = recorder->Next) {
-    tmr::stop(node.Tmr, recorder->Tmr);
+    tmr::stop(node, recorder->Tmr);
   }
 }
 

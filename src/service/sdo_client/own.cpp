@@ -142,7 +142,7 @@ void queue_own_access(CO_CSDO& client) {
   client.Num = 0;
   client.Total = has(client, is_upload) ? 0 : client.Size;
   set_state(client, State::own);
-  tmr::start(client.Node->Tmr, client.Tmr, 1, 0, run_own_access, &client);
+  tmr::start(*client.Node, client.Tmr, 1, 0, run_own_access, &client);
 }
 
 bool defer_end_of_own_access(CO_CSDO& client, uint32_t code) {

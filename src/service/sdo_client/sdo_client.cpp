@@ -115,7 +115,7 @@ CO_ERR send_initiate(CO_CSDO& client) {
 
 // Converts the time-out to ticks. Time-outs beyond the timer's range are limited to the longest time.
 uint32_t ticks(const CO_NODE& node, uint32_t timeout) {
-  const uint32_t ticks = tmr::ticks(node.Tmr, timeout, CO_TMR_UNIT_1MS);
+  const uint32_t ticks = tmr::ticks(node, timeout, CO_TMR_UNIT_1MS);
   return timeout != 0 && ticks == 0 ? UINT32_MAX : ticks;
 }
 
@@ -195,7 +195,7 @@ void start_timeout(CO_CSDO& client) {
   }
   const uint32_t ticks = receives_block(client) ? (client.Ticks - 1) / quarters + 1 : client.Ticks;
   clear(client, active);
-  tmr::start(client.Node->Tmr, client.Tmr, ticks, 0, on_time, &client);
+  tmr::start(*client.Node, client.Tmr, ticks, 0, on_time, &client);
 }
 
 void finish(CO_CSDO& client, uint32_t code) {
@@ -205,7 +205,7 @@ void finish(CO_CSDO& client, uint32_t code) {
     }
   }
   const uint32_t key = client.Key;
-  tmr::stop(client.Node->Tmr, client.Tmr);
+  tmr::stop(*client.Node, client.Tmr);
   set_state(client, State::idle);
   client.State = CO_CSDO_STATE_IDLE;
   client.Call(&client, CO_GET_IDX(key), CO_GET_SUB(key), code);

@@ -171,7 +171,7 @@ void init(CO_NODE& node) {
     channel.TxId = wire::no_frame;
     channel.WasTxId = wire::no_frame;
   }
-  tmr::stop(node.Tmr, node.SdoTmr);
+  tmr::stop(node, node.SdoTmr);
   configure(node);
 }
 

@@ -120,9 +120,9 @@ void continue_transfer(CO_SDO& channel, CO_OBJ& obj, State state) {
   if (!has_time_out || tmr::is_running(node.SdoTmr)) {
     return;
   }
-  const uint32_t slice = tmr::ticks(node.Tmr, CO_SDO_TIMEOUT, CO_TMR_UNIT_1MS * slices);
+  const uint32_t slice = tmr::ticks(node, CO_SDO_TIMEOUT, CO_TMR_UNIT_1MS * slices);
   if (slice != 0) {
-    tmr::start(node.Tmr, node.SdoTmr, 0, slice, on_slice, &node);
+    tmr::start(node, node.SdoTmr, 0, slice, on_slice, &node);
   }
 }
 
@@ -135,7 +135,7 @@ void stop_idle_timer(CO_NODE& node) {
       return;
     }
   }
-  tmr::stop(node.Tmr, node.SdoTmr);
+  tmr::stop(node, node.SdoTmr);
 }
 
 void restart(CO_SDO& channel, const CO_IF_FRM& request) {

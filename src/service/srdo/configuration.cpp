@@ -65,7 +65,7 @@ bool is_time(uint32_t ticks) { return ticks != 0 && ticks < UINT32_MAX; }
 
 // Returns whether the producer can send its pair, with the gap, within the refresh time.
 bool has_gap(const CO_NODE& node, const CO_SRDO& srdo) {
-  return srdo.Direction != CO_SRDO_TX || CO_SRDO_GAP == 0 || tmr::ticks(node.Tmr, CO_SRDO_GAP, unit_us) < srdo.Cycle;
+  return srdo.Direction != CO_SRDO_TX || CO_SRDO_GAP == 0 || tmr::ticks(node, CO_SRDO_GAP, unit_us) < srdo.Cycle;
 }
 
 // Returns whether another SRDO that has been checked uses the identifiers.
@@ -94,8 +94,8 @@ uint8_t apply_communication(CO_NODE& node, unsigned number, const Communication&
     return 6;
   }
   srdo.Direction = parameter.direction;
-  srdo.Cycle = tmr::ticks(node.Tmr, parameter.cycle, CO_TMR_UNIT_1MS);
-  srdo.Validation = tmr::ticks(node.Tmr, parameter.validation, CO_TMR_UNIT_1MS);
+  srdo.Cycle = tmr::ticks(node, parameter.cycle, CO_TMR_UNIT_1MS);
+  srdo.Validation = tmr::ticks(node, parameter.validation, CO_TMR_UNIT_1MS);
   if (!is_time(srdo.Cycle) || !has_gap(node, srdo)) {
     return 2;
   }

@@ -57,7 +57,7 @@ void withdraw(CO_SRDO& srdo) {
 }
 
 void stop(CO_SRDO& srdo) {
-  tmr::stop(srdo.Node->Tmr, srdo.Tmr);
+  tmr::stop(*srdo.Node, srdo.Tmr);
   clear(srdo, halved | requested | served);
   withdraw(srdo);
 }
@@ -80,10 +80,10 @@ void fail(CO_SRDO& srdo, CO_SRDO_STATE state) {
 void on_time(void* srdo_pointer);
 
 void start(CO_SRDO& srdo, uint32_t ticks) {
-  tmr::start(srdo.Node->Tmr, srdo.Tmr, ticks != 0 ? ticks : 1, 0, on_time, &srdo);
+  tmr::start(*srdo.Node, srdo.Tmr, ticks != 0 ? ticks : 1, 0, on_time, &srdo);
 }
 
-uint32_t elapsed(const CO_SRDO& srdo) { return tmr::now(srdo.Node->Tmr) - srdo.Tick; }
+uint32_t elapsed(const CO_SRDO& srdo) { return tmr::now(*srdo.Node) - srdo.Tick; }
 
 // Producer ------------------------------------------------------------------------------------------------------------
 
@@ -93,7 +93,7 @@ void start_cycle(CO_SRDO& srdo) {
   start(srdo, passed < srdo.Cycle ? srdo.Cycle - passed : 0);
 }
 
-void start_gap(CO_SRDO& srdo) { start(srdo, tmr::ticks(srdo.Node->Tmr, CO_SRDO_GAP, unit_us)); }
+void start_gap(CO_SRDO& srdo) { start(srdo, tmr::ticks(*srdo.Node, CO_SRDO_GAP, unit_us)); }
 
 // Returns whether a frame of the last pair was not sent yet.
 bool is_queued(const CO_SRDO& srdo) {
@@ -159,8 +159,8 @@ void produce_in_cycle(CO_SRDO& srdo) {
 // Starts the time until the first pair: 0.5 ms for each node-ID below.
 void start_producer(CO_SRDO& srdo) {
   constexpr uint32_t share = 5;  // x 100 µs
-  const uint32_t first = tmr::ticks(srdo.Node->Tmr, srdo.Node->NodeId * share, CO_TMR_UNIT_100US);
-  srdo.Tick = tmr::now(srdo.Node->Tmr) + first - srdo.Cycle;
+  const uint32_t first = tmr::ticks(*srdo.Node, srdo.Node->NodeId * share, CO_TMR_UNIT_100US);
+  srdo.Tick = tmr::now(*srdo.Node) + first - srdo.Cycle;
   start(srdo, first);
 }
 
@@ -175,7 +175,7 @@ CO_ERR request(CO_NODE& node, CO_SRDO& srdo) {
     set(srdo, requested);
     return CO_ERR_NONE;
   }
-  srdo.Tick = tmr::now(node.Tmr);
+  srdo.Tick = tmr::now(node);
   produce(srdo);
   return is_running(srdo) ? CO_ERR_NONE : CO_ERR_OBJ_READ;
 }
@@ -223,7 +223,7 @@ void receive_plain(CO_SRDO& srdo, const CO_IF_FRM& frame) {
     return;
   }
   __builtin_memcpy(srdo.Data, frame.Data, sizeof srdo.Data);
-  srdo.Tick = tmr::now(srdo.Node->Tmr);
+  srdo.Tick = tmr::now(*srdo.Node);
   set(srdo, halved);
   expect(srdo, srdo.Validation);
 }

@@ -27,19 +27,19 @@ constexpr uint32_t producer = CO_SYNC_COBID_ON;
 
 uint32_t read(CO_NODE& node, uint16_t index) { return dict::read_number(node, CO_DEV(index, 0), sizeof(uint32_t), 0); }
 
-uint32_t ticks(const CO_NODE& node, uint32_t time) { return tmr::ticks(node.Tmr, time, microseconds); }
+uint32_t ticks(const CO_NODE& node, uint32_t time) { return tmr::ticks(node, time, microseconds); }
 
 void end_window(void* node_pointer) { event::end_sync_window(*static_cast<CO_NODE*>(node_pointer)); }
 
 // Allows synchronous PDOs again before the next SYNC: the window has changed, or SYNC is not allowed any more.
 void open_window(CO_NODE& node) {
-  tmr::stop(node.Tmr, node.Sync.WindowTmr);
+  tmr::stop(node, node.Sync.WindowTmr);
   node.WindowOver = 0;
 }
 
 void process(CO_NODE& node, uint8_t counter) {
   if (node.Sync.Window != 0 && event::is_allowed(node, CO_SYNC_ALLOWED)) {
-    tmr::start(node.Tmr, node.Sync.WindowTmr, node.Sync.Window, 0, end_window, &node);
+    tmr::start(node, node.Sync.WindowTmr, node.Sync.Window, 0, end_window, &node);
   }
   event::sync(node, counter);
 }
@@ -68,10 +68,10 @@ void run_producer(CO_NODE& node) {
   const uint32_t time = read(node, cycle_index);
   const uint32_t period = is_too_short(time) ? 0 : ticks(node, time);
   if (sync.Produces == 0 || period == 0 || !event::is_allowed(node, CO_SYNC_ALLOWED)) {
-    tmr::stop(node.Tmr, sync.Tmr);
+    tmr::stop(node, sync.Tmr);
     return;
   }
-  tmr::start(node.Tmr, sync.Tmr, 0, period, produce, &node);
+  tmr::start(node, sync.Tmr, 0, period, produce, &node);
 }
 
 // Raises or resolves the fault sync_length, which remains until a SYNC has the right length.
@@ -191,7 +191,7 @@ void init(CO_NODE& node) {
 
 void on_mode(CO_NODE& node) {
   if (!event::is_allowed(node, CO_SYNC_ALLOWED)) {
-    tmr::stop(node.Tmr, node.Sync.Tmr);
+    tmr::stop(node, node.Sync.Tmr);
     open_window(node);
     transmit::withdraw(node, node.Sync.Identifier);
     node.Sync.Counter = 0;

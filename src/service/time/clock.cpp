@@ -23,7 +23,7 @@ CO_TIME_OF_DAY later(const CO_TIME_OF_DAY& time, uint32_t days, uint32_t ms) {
 uint32_t advance_clock(CO_NODE& node) {
   constexpr uint32_t seconds_per_day = wire::ms_per_day / 1000;
   CO_TIME& time = node.Time;
-  const uint32_t passed = tmr::now(node.Tmr) - time.Tick;
+  const uint32_t passed = tmr::now(node) - time.Tick;
   const uint32_t seconds = passed / node.Tmr.Freq;
   const uint32_t ticks = seconds * node.Tmr.Freq;
   time.Past = later(time.Past, seconds / seconds_per_day, seconds % seconds_per_day * 1000);
@@ -67,13 +67,13 @@ CO_ERR set_clock(CO_NODE& node, const CO_TIME_OF_DAY& time) {
   if (second == 0) {
     return CO_ERR_TMR_CREATE;
   }
-  tmr::start(node.Tmr, node.Time.Tmr, 0, second, advance_clock, &node);
+  tmr::start(node, node.Time.Tmr, 0, second, advance_clock, &node);
   node.Time.Past = time;
-  node.Time.Tick = tmr::now(node.Tmr);
+  node.Time.Tick = tmr::now(node);
   return CO_ERR_NONE;
 }
 
-void stop_clock(CO_NODE& node) { tmr::stop(node.Tmr, node.Time.Tmr); }
+void stop_clock(CO_NODE& node) { tmr::stop(node, node.Time.Tmr); }
 
 }  // namespace co::time
 

@@ -41,9 +41,9 @@ void run_producer(CO_NODE& node) {
   CO_TIME& time = node.Time;
   const bool runs = time.Period != 0 && produces(node) && is_allowed(node);
   if (!runs) {
-    tmr::stop(node.Tmr, time.SendTmr);
+    tmr::stop(node, time.SendTmr);
   } else if (!tmr::is_running(time.SendTmr)) {
-    tmr::start(node.Tmr, time.SendTmr, 0, time.Period, send, &node);
+    tmr::start(node, time.SendTmr, 0, time.Period, send, &node);
   }
 }
 
@@ -100,11 +100,11 @@ CO_ERR COTimeSend(CO_NODE* node) {
 
 CO_ERR COTimeProduce(CO_NODE* node, uint32_t ms) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  const uint32_t ticks = tmr::ticks(node->Tmr, ms, CO_TMR_UNIT_1MS);
+  const uint32_t ticks = tmr::ticks(*node, ms, CO_TMR_UNIT_1MS);
   if (ms != 0 && ticks == 0) {
     return CO_ERR_BAD_ARG;
   }
-  tmr::stop(node->Tmr, node->Time.SendTmr);
+  tmr::stop(*node, node->Time.SendTmr);
   node->Time.Period = ticks;
   time::run_producer(*node);
   return CO_ERR_NONE;
