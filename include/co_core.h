@@ -292,6 +292,18 @@ CO_ERR CONodeGetErr(CO_NODE* node);
 /// \retval 0  the error is about no object, CONodeGetErr() returned CO_ERR_NONE, or \a node is null
 uint32_t CONodeGetErrKey(const CO_NODE* node);
 
+/// Bytes that the longest text of CONodeGetErrText() needs, with its NUL.
+#define CO_NODE_ERR_TEXT 400
+
+/// Like CONodeGetErr(), and writes name, object and meaning of the error to \a text, with the fault of the dictionary
+/// if there is one: "CO_ERR_TPDO_MAP_OBJ, object 1A00h:02: …"; "no error" for CO_ERR_NONE. Text beyond \a size bytes
+/// is cut off; it always ends with a NUL. Where USE_DICT_CHECK is 0, this call finds entries in the wrong order. Names
+/// and meanings take about 8 KB of flash, in a program that calls this function only.
+/// \retval CO_ERR_NONE       no error since the last call
+/// \retval CO_ERR_DICT_INIT  also if USE_DICT_CHECK is 0 and entries are in the wrong order
+/// \retval CO_ERR_BAD_ARG    an argument is null, or \a size is 0
+CO_ERR CONodeGetErrText(CO_NODE* node, char* text, uint32_t size);
+
 /// Reads and processes at most one frame. Before that, it offers the frames in the transmit queue to the driver and
 /// continues paused block transfers by up to CO_SDO_BLOCK_PACE segments; COTmrProcess() does both, too. Blocks only if
 /// the driver's Read function does. In CO_INVALID it reads one frame and discards it, counted as received and

@@ -17,8 +17,9 @@ extern "C" {
 /// Faults of a dictionary: name, number, meaning. CO_OD_CHECK() (lexican/dictionary.hpp) rejects all of them at compile
 /// time. At run time only a fault that breaks the search or memory safety stops the node (CO_INVALID,
 /// CO_ERR_DICT_INIT). Any other fault affects its entry only: the node runs, its error is CO_ERR_OBJ_INIT, and
-/// CODictGetFault() returns the entry. With USE_DICT_CHECK 0 nothing is checked at run time. CO_DICT_DIRECT_ADDRESS,
-/// CO_DICT_DIRECT_CONST and CO_DICT_NOT_MAPPABLE are detected at compile time only.
+/// CODictGetFault() returns the entry. With USE_DICT_CHECK 0 nothing is checked at run time, except that
+/// CODictGetFault() finds CO_DICT_NOT_ASCENDING. CO_DICT_DIRECT_ADDRESS, CO_DICT_DIRECT_CONST and CO_DICT_NOT_MAPPABLE
+/// are detected at compile time only.
 ///
 /// CO_DICT_NO_DATA: SDO transfers of the entry are aborted with 0800 0020h, API functions return an error, and a PDO
 /// that maps the entry does not exist; this also holds with USE_DICT_CHECK 0. CO_DICT_RESERVED_INDEX of a static data
@@ -154,8 +155,10 @@ CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val);   ///< writes 32 
 CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 
 /// Finds a stream or value and writes \a len bytes from \a buf to it, from its beginning. Returns the result of the
-/// type function, or: \retval CO_ERR_BAD_ARG        an argument is null, or a value has another length \retval
-/// CO_ERR_OBJ_NOT_FOUND  there is no such entry \retval CO_ERR_OBJ_ACC        the type has no Write function
+/// type function, or:
+/// \retval CO_ERR_BAD_ARG        an argument is null, or a value has another length
+/// \retval CO_ERR_OBJ_NOT_FOUND  there is no such entry
+/// \retval CO_ERR_OBJ_ACC        the type has no Write function
 CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 
 /// Makes \a root the table of the dictionary. The table has \a max entries, or ends at the first entry with key 0; an
@@ -178,7 +181,7 @@ CO_ERR CODictObjInit(CO_DICT* cod, struct CO_NODE_T* node);
 /// Returns the first fault that CODictInit() or the Init function of a basic type has found; a fault that stops the
 /// node has precedence. \a key (may be null) receives the key of the entry. May also be called after CONodeInit() has
 /// failed with CO_ERR_DICT_INIT.
-/// \retval CO_DICT_OK  no fault, or USE_DICT_CHECK is 0
+/// \retval CO_DICT_OK  no fault. With USE_DICT_CHECK 0 this function itself checks the order of the table, nothing else
 /// \retval other       see CO_DICT_FAULT_LIST
 CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key);
 

@@ -63,19 +63,13 @@ void make_node() {
   CONodeInitEx(&node, &spec, &extension);
 }
 
-// Prints the last error of the node, if there is one: its name, the object, and its text. Index and sub-index are
-// printed as one hexadecimal number.
+// Prints the last error of the node, if there is one.
 void print_error() {
-  const CO_ERR error = CONodeGetErr(&node);
-  if (error == CO_ERR_NONE) {
-    return;
+  char text[CO_NODE_ERR_TEXT];
+  if (CONodeGetErrText(&node, text, sizeof text) != CO_ERR_NONE) {
+    board::print(text);
+    board::print("\n");
   }
-  board::print(COErrName(error));
-  board::print(", object ");
-  board::print_hex(CONodeGetErrKey(&node) >> 8);
-  board::print(": ");
-  board::print(COErrText(error));
-  board::print("\n");
 }
 
 // Sleeps if the node is idle. Interrupts are disabled between the check and the sleep; a pending one ends the sleep.

@@ -36,5 +36,7 @@ int main(void) {
     COTmrService(&node.Tmr);
     COTmrProcess(&node.Tmr);
   }
-  puts(COErrText(CONodeGetErr(&node)));
+  char text[CO_NODE_ERR_TEXT];
+  CONodeGetErrText(&node, text, sizeof text);
+  puts(text);
 }

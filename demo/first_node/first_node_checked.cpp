@@ -55,5 +55,7 @@ int main() {
     COTmrProcess(&node.Tmr);
   }
   std::printf("hour: %u\n", shown_hour.get().value());
-  std::puts(COErrText(CONodeGetErr(&node)));
+  char text[CO_NODE_ERR_TEXT];
+  CONodeGetErrText(&node, text, sizeof text);
+  std::puts(text);
 }

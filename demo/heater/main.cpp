@@ -26,21 +26,13 @@ void heat(void* node) {
       .set(static_cast<std::int16_t>(heater_ram.temperature + step));
 }
 
-// Prints the last error of the node: its name, index and sub-index of the object, and its text. Returns false if there
-// is none.
+// Prints the last error of the node. Returns false if there is none.
 bool print_error(CO_NODE& node) {
-  const CO_ERR error = CONodeGetErr(&node);
-  if (error == CO_ERR_NONE) {
+  char text[CO_NODE_ERR_TEXT];
+  if (CONodeGetErrText(&node, text, sizeof text) == CO_ERR_NONE) {
     return false;
   }
-  const std::uint32_t key = CONodeGetErrKey(&node);
-  std::fprintf(stderr, "heater: %s, object %04Xh:%02X: %s\n", COErrName(error), CO_GET_IDX(key), CO_GET_SUB(key),
-               COErrText(error));
-  std::uint32_t entry = 0;
-  if (const CO_DICT_FAULT fault = CODictGetFault(&node.Dict, &entry); fault != CO_DICT_OK) {
-    std::fprintf(stderr, "heater: %s, entry %04Xh:%02X: %s\n", CODictFaultName(fault), CO_GET_IDX(entry),
-                 CO_GET_SUB(entry), CODictFaultText(fault));
-  }
+  std::fprintf(stderr, "heater: %s\n", text);
   return true;
 }
 

@@ -16,10 +16,6 @@ constexpr Micros resend_interval = 10 * millisecond;
 // Limit of frames per call, so that a busy bus delays neither the timers nor the program.
 constexpr unsigned frames_per_call = 32;
 
-std::string object_text(std::uint32_t key) {
-  return key != 0 ? text(", object %04Xh:%02X", unsigned{CO_GET_IDX(key)}, unsigned{CO_GET_SUB(key)}) : "";
-}
-
 std::uint32_t frames(const CO_NODE_COUNTERS& counters) { return counters.Received + counters.Sent; }
 
 }  // namespace
@@ -110,16 +106,8 @@ bool Node::process() {
 }
 
 std::string Node::error_text() {
-  const CO_ERR err = error();
-  if (err == CO_ERR_NONE) {
-    return {};
-  }
-  std::uint32_t key = 0;
-  std::string words = std::string(COErrName(err)) + object_text(CONodeGetErrKey(&node_)) + ": " + COErrText(err);
-  if (const CO_DICT_FAULT fault = CODictGetFault(&node_.Dict, &key); fault != CO_DICT_OK) {
-    words += std::string("; ") + CODictFaultName(fault) + object_text(key) + ": " + CODictFaultText(fault);
-  }
-  return words;
+  char text[CO_NODE_ERR_TEXT];
+  return CONodeGetErrText(&node_, text, sizeof text) != CO_ERR_NONE ? text : std::string();
 }
 
 #if USE_LSS && USE_PARA

@@ -57,16 +57,14 @@ int answer_arguments(int argc, char** argv) {
   return 2;
 }
 
-// Prints the last error of the node: its name, index and sub-index of the object, its meaning. Returns false if there
-// is none.
+// Prints the last error of the node. Returns false if there is none.
 bool print_error(CO_NODE& node) {
-  const CO_ERR error = CONodeGetErr(&node);
-  const std::uint32_t key = CONodeGetErrKey(&node);
-  if (error != CO_ERR_NONE) {
-    std::fprintf(stderr, "%s, object %04Xh:%02X: %s\n", COErrName(error), CO_GET_IDX(key), CO_GET_SUB(key),
-                 COErrText(error));
+  char text[CO_NODE_ERR_TEXT];
+  if (CONodeGetErrText(&node, text, sizeof text) == CO_ERR_NONE) {
+    return false;
   }
-  return error != CO_ERR_NONE;
+  std::fprintf(stderr, "%s\n", text);
+  return true;
 }
 
 }  // namespace

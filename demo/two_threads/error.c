@@ -4,11 +4,10 @@
 #include <stdio.h>
 
 CO_ERR PrintError(CO_NODE* node, const char* name_of_node) {
-  const CO_ERR err = CONodeGetErr(node);
-  const uint32_t key = CONodeGetErrKey(node);
+  char text[CO_NODE_ERR_TEXT];
+  const CO_ERR err = CONodeGetErrText(node, text, sizeof(text));
   if (err != CO_ERR_NONE) {
-    printf("%s: %s, object %04Xh:%02X: %s\n", name_of_node, COErrName(err), (unsigned)CO_GET_IDX(key),
-           (unsigned)CO_GET_SUB(key), COErrText(err));
+    printf("%s: %s\n", name_of_node, text);
   }
   return err;
 }

@@ -3,9 +3,9 @@
 #include "co_core.h"
 #include "dictionary/dict.hpp"
 
-#if USE_DICT_CHECK
-
 namespace co::dict {
+
+#if USE_DICT_CHECK
 
 CO_ERR check(CO_DICT& dict) {
   uint32_t key_before = 0;
@@ -34,6 +34,17 @@ CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {
   return fault == CO_DICT_OK ? CO_ERR_NONE : set_fault(obj, node, fault);
 }
 
-}  // namespace co::dict
+#else
+
+uint32_t out_of_order(const CO_DICT& dict) {
+  for (uint16_t n = 1; n < dict.Num; ++n) {
+    if ((dict.Root[n].Key >> 8) <= (dict.Root[n - 1].Key >> 8)) {
+      return dict.Root[n].Key;
+    }
+  }
+  return 0;
+}
 
 #endif
+
+}  // namespace co::dict

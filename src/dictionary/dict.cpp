@@ -141,10 +141,17 @@ CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key) {
   if (cod == nullptr) {
     return CO_DICT_OK;
   }
+#if USE_DICT_CHECK
+  const uint32_t key_of_fault = dict::fault_key_of(*cod);
+  const CO_DICT_FAULT fault = dict::fault_of(*cod);
+#else
+  const uint32_t key_of_fault = dict::out_of_order(*cod);
+  const CO_DICT_FAULT fault = key_of_fault != 0 ? CO_DICT_NOT_ASCENDING : CO_DICT_OK;
+#endif
   if (key != nullptr) {
-    *key = dict::fault_key_of(*cod);
+    *key = key_of_fault;
   }
-  return dict::fault_of(*cod);
+  return fault;
 }
 
 CO_ERR CODictRdByte(CO_DICT* cod, uint32_t key, uint8_t* val) {

@@ -235,15 +235,21 @@ TEST_CASE("dictionary: a node with a faulty one does not start") {
 
 #else
 
-TEST_CASE("dictionary: without USE_DICT_CHECK a faulty one is used unchecked") {
+TEST_CASE("dictionary: without USE_DICT_CHECK one in the wrong order is used, and the fault is found when asked for") {
   CO_DICT dict;
   std::uint32_t key = 1;
-  CO_OBJ swapped[3] = {byte_at(CO_DEV(0x2003, 0), 1), byte_at(CO_DEV(0x2002, 0), 1), byte_at(CO_DEV(0x2001, 0), 1)};
-  CHECK(CODictInit(&dict, some_node(), swapped, 3) == 3);
-  CHECK(CODictGetFault(&dict, &key) == CO_DICT_OK);
-  CHECK(key == 0);
+  CO_OBJ table[4] = {byte_at(CO_DEV(0x2001, 0), 1), byte_at(CO_DEV(0x2002, 0), 1), byte_at(CO_DEV(0x2002, 0), 1),
+                     CO_OBJ_DICT_ENDMARK};
+  CHECK(CODictInit(&dict, some_node(), table, 3) == 3);
+  CHECK(CODictGetFault(&dict, &key) == CO_DICT_NOT_ASCENDING);
+  CHECK(CO_GET_DEV(key) == CO_DEV(0x2002, 0));
   CHECK(CODictFind(&dict, CO_DEV(0x2000, 0)) == nullptr);
   CHECK(CODictFind(&dict, CO_DEV(0xFFFF, 0xFF)) == nullptr);
+  CHECK(CODictInit(&dict, some_node(), table + 3, 1) == 0);
+  CHECK(CODictGetFault(&dict, &key) == CO_DICT_OK);
+  CHECK(key == 0);
+  CHECK(CODictInit(&dict, some_node(), table, 2) == 2);
+  CHECK(CODictGetFault(&dict, &key) == CO_DICT_OK);
 }
 
 #endif

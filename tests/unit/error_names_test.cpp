@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// COErrName(), COErrText(), CODictFaultName(), CODictFaultText(). tests/compat/error_codes.c compares all names and
-// numbers of co_err.h with a separate list.
+// COErrName(), COErrText(), CODictFaultName(), CODictFaultText(), CONodeGetErrText(). tests/compat/error_codes.c
+// compares all names and numbers of co_err.h with a separate list.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <set>
 #include <string>
 
-#include "co_core.h"
+#include "support/fixture.hpp"
 
 namespace {
+
+using namespace test;
 
 constexpr unsigned last_error = 0x15D;
 constexpr unsigned last_fault = 12;
@@ -68,6 +72,74 @@ TEST_CASE("error names: each fault of a dictionary has a name and a meaning") {
     CHECK(CODictFaultName(static_cast<CO_DICT_FAULT>(number)) == std::string("unknown fault"));
     CHECK(CODictFaultText(static_cast<CO_DICT_FAULT>(number)) == std::string("unknown fault"));
   }
+}
+
+CO_ERR text_of(CO_NODE& node, std::string& text, std::uint32_t size = CO_NODE_ERR_TEXT) {
+  char bytes[CO_NODE_ERR_TEXT + 1];
+  std::memset(bytes, '#', sizeof bytes);
+  const CO_ERR err = CONodeGetErrText(&node, bytes, size);
+  CHECK(bytes[size] == '#');
+  text = bytes;
+  return err;
+}
+
+TEST_CASE("CONodeGetErrText: name, object and meaning of the last error, then no error") {
+  Fixture node;
+  std::string text;
+  node->Error = CO_ERR_TPDO_MAP_OBJ;
+  node->ErrorKey = CO_DEV(0x1A00, 0xB);
+  CHECK(text_of(node.node, text) == CO_ERR_TPDO_MAP_OBJ);
+  CHECK(text == std::string("CO_ERR_TPDO_MAP_OBJ, object 1A00h:0B: ") + COErrText(CO_ERR_TPDO_MAP_OBJ));
+  CHECK(text_of(node.node, text) == CO_ERR_NONE);
+  CHECK(text == "no error");
+  node->Error = CO_ERR_IF_CAN_SEND;
+  CHECK(text_of(node.node, text) == CO_ERR_IF_CAN_SEND);
+  CHECK(text == std::string("CO_ERR_IF_CAN_SEND: ") + COErrText(CO_ERR_IF_CAN_SEND));
+}
+
+TEST_CASE("CONodeGetErrText: entries in the wrong order are named in every configuration") {
+  const std::string fault =
+      std::string("CO_DICT_NOT_ASCENDING, object 2001h:00: ") + CODictFaultText(CO_DICT_NOT_ASCENDING);
+  CO_OBJ table[] = {{CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 0},
+                    {CO_KEY(0x2002, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 0},
+                    {CO_KEY(0x2001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 0},
+                    CO_OBJ_DICT_ENDMARK};
+  Fixture node;
+  std::string text;
+  node->Error = CO_ERR_NONE;
+  CHECK((CODictInit(&node->Dict, &node.node, table, 4) < 0) == (USE_DICT_CHECK != 0));
+  if (USE_DICT_CHECK != 0) {
+    node->Error = CO_ERR_DICT_INIT;
+  }
+  CHECK(text_of(node.node, text) == CO_ERR_DICT_INIT);
+  CHECK(text.substr(text.size() - fault.size()) == fault);
+}
+
+TEST_CASE("CONodeGetErrText: a text that is too long is cut off; the longest one fits") {
+  Fixture node;
+  std::string text;
+  node->Error = CO_ERR_IF_CAN_SEND;
+  CHECK(text_of(node.node, text, 7) == CO_ERR_IF_CAN_SEND);
+  CHECK(text == "CO_ERR");
+  node->Error = CO_ERR_IF_CAN_SEND;
+  CHECK(text_of(node.node, text, 1) == CO_ERR_IF_CAN_SEND);
+  CHECK(text.empty());
+  char letter = 'x';
+  CHECK(CONodeGetErrText(nullptr, &letter, 1) == CO_ERR_BAD_ARG);
+  CHECK(CONodeGetErrText(&node.node, nullptr, 1) == CO_ERR_BAD_ARG);
+  CHECK(CONodeGetErrText(&node.node, &letter, 0) == CO_ERR_BAD_ARG);
+  CHECK(letter == 'x');
+  std::size_t longest_error = 0;
+  for (unsigned number = CO_ERR_BASE; number <= last_error; ++number) {
+    const auto err = static_cast<CO_ERR>(number);
+    longest_error = std::max(longest_error, std::strlen(COErrName(err)) + std::strlen(COErrText(err)));
+  }
+  std::size_t longest_fault = 0;
+  for (unsigned number = 0; number <= last_fault; ++number) {
+    const auto fault = static_cast<CO_DICT_FAULT>(number);
+    longest_fault = std::max(longest_fault, std::strlen(CODictFaultName(fault)) + std::strlen(CODictFaultText(fault)));
+  }
+  CHECK(longest_error + longest_fault + 2 * std::strlen(", object 1A00h:0B: ") + std::strlen("; ") < CO_NODE_ERR_TEXT);
 }
 
 // The numbers must not change, because firmware logs them.

@@ -101,6 +101,7 @@ int main(void) {
   CO_VIRTUAL_CLOCK* clock = COVirtualClockNew();
   CO_VIRTUAL_PORT* master = COVirtualBusAttach(bus, "master");
   const uint8_t start[] = {1, NODE_ID};
+  char text[CO_NODE_ERR_TEXT];
   COVirtualBusTrace(bus, PrintFrame, clock);
   COVirtualPortEnable(master, 0);
 
@@ -119,10 +120,8 @@ int main(void) {
 @STORAGE_INIT@
   CONodeInitEx(&Node, &Spec, &Drivers);
   CONodeStart(&Node);
-  if (CONodeGetErr(&Node) != CO_ERR_NONE) {
-    const uint32_t key = CONodeGetErrKey(&Node);
-    printf("object %04Xh:%02X: %s\n", (unsigned)CO_GET_IDX(key), (unsigned)CO_GET_SUB(key),
-           COErrText(CONodeGetErr(&Node)));
+  if (CONodeGetErrText(&Node, text, sizeof text) != CO_ERR_NONE) {
+    puts(text);
     return 1;
   }
   SendAsMaster(master, 0x000, start, sizeof start); /* NMT: start */
