@@ -7,17 +7,15 @@ lane() {
   test_options=(-DLEXICAN_TEST_OPTIONS= -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
   configuration O3 -O3
   test_options=()
-  configuration lto "-O2 -flto"
+  configuration lto "-O2 -flto=auto"
   configuration unsigned-char-short-enums "-O2 -funsigned-char -fshort-enums"
   # Smallest buffers, most channels, slowest block transfer, no block transfer and clients with the fewest functions.
   configuration one-segment "-O2 -DCO_SDO_BUF_SEG=1" slave
   configuration two-segments "-O2 -DCO_SDO_BUF_SEG=2 -DCO_SSDO_N=128 -DCO_CSDO_N=100" slave
   configuration segment-a-call "-O2 -DCO_SDO_BUF_SEG=8 -DCO_SDO_BLOCK_PACE=1" slave
   configuration no-block "-O2 -DUSE_SDO_BLOCK=0 -DUSE_CSDO_BLOCK=0 -DUSE_CSDO_OWN=0" slave
-  # Mapping of single bits and a gap between the frames of an SRDO; no remote requests, no LSS in Operational, restricted
-  # CAN-IDs permitted; most PDOs.
-  configuration pdo-bits "-O2 -DUSE_PDO_BITS=1 -DCO_SRDO_GAP=300"
-  configuration no-remote "-O2 -DUSE_PDO_RTR=0 -DCO_LSS_IN_OPERATIONAL=0 -DCO_RESTRICTED_IDS=1"
+  # No remote requests, no LSS in Operational, restricted CAN-IDs permitted, a gap between the frames of an SRDO; most PDOs.
+  configuration no-remote "-O2 -DUSE_PDO_RTR=0 -DCO_LSS_IN_OPERATIONAL=0 -DCO_RESTRICTED_IDS=1 -DCO_SRDO_GAP=300"
   configuration pdo-512 "-O2 -DCO_RPDO_N=512 -DCO_TPDO_N=512" slave
 }
 

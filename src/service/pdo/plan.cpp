@@ -67,7 +67,8 @@ uintptr_t address_of(const CO_OBJ& obj) { return obj.Data; }
 // Returns whether the value is exactly the bytes of its variable, accessible in one access. RPDO objects with flag A
 // are written by their type, which detects changes.
 bool is_plain(const CO_NODE& node, const CO_OBJ& obj, Direction direction, unsigned bytes) {
-  if (!copies || integer::plain_bytes(obj) != bytes || is_numbered_anew(node)) {
+  const bool is_single_bit = maps_bits && bytes == 0;
+  if (!copies || is_single_bit || integer::plain_bytes(obj) != bytes || is_numbered_anew(node)) {
     return false;
   }
   return direction == Direction::transmit ||
