@@ -244,7 +244,8 @@ typedef struct CO_NODE_T {
 /// Initialises a node and its drivers and puts the controller on the bus; no frame is sent. The node is then in
 /// CO_INIT, and CONodeGetErr() returns the last error. Only these errors leave the node in CO_INVALID:
 /// - CO_ERR_NODE_EXT, CO_ERR_NODE_CAN, CO_ERR_NODE_TIMER, CO_ERR_NODE_TMR_FREQ: the node calls no driver, now or later;
-/// - CO_ERR_NODE_ID, CO_ERR_NODE_DICT, CO_ERR_NODE_SDO_BUF: the drivers are initialised, the controller stays off the bus;
+/// - CO_ERR_NODE_ID, CO_ERR_NODE_DICT, CO_ERR_NODE_SDO_BUF: the drivers are initialised, the controller stays off the
+/// bus;
 /// - CO_ERR_DICT_INIT: the drivers are initialised, the controller stays off the bus; CODictGetFault() returns the
 ///   faulty entry.
 ///

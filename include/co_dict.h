@@ -18,8 +18,9 @@ extern "C" {
 /// time. At run time only a fault that breaks the search or memory safety stops the node (CO_INVALID,
 /// CO_ERR_DICT_INIT). Any other fault affects its entry only: the node runs, its error is CO_ERR_OBJ_INIT, and
 /// CODictGetFault() returns the entry. With USE_DICT_CHECK 0 nothing is checked at run time, except that
-/// CODictGetFault() finds CO_DICT_NOT_ASCENDING. CO_DICT_DIRECT_ADDRESS, CO_DICT_DIRECT_CONST and CO_DICT_NOT_MAPPABLE
-/// are detected at compile time only.
+/// CODictGetFault() finds CO_DICT_NOT_ASCENDING. CO_DICT_DIRECT_ADDRESS, CO_DICT_DIRECT_CONST, CO_DICT_NOT_MAPPABLE,
+/// CO_DICT_MISSING, CO_DICT_MAP_TARGET and CO_DICT_MAP_LENGTH are detected at compile time only, and so is
+/// CO_DICT_WRONG_PLACE of objects without a type of their own, such as 1000h.
 ///
 /// CO_DICT_NO_DATA: SDO transfers of the entry are aborted with 0800 0020h, API functions return an error, and a PDO
 /// that maps the entry does not exist; this also holds with USE_DICT_CHECK 0. CO_DICT_RESERVED_INDEX of a static data
@@ -37,7 +38,10 @@ extern "C" {
   X(CO_DICT_DIRECT_CONST, 9, "flags D and W in a table in read-only memory")                                           \
   X(CO_DICT_RESERVED_INDEX, 10, "index 0000h; or a static data type (index 0001h to 001Fh) with data")                 \
   X(CO_DICT_NOT_MAPPABLE, 11, "a PDO of the table maps this entry, which has no flag P")                               \
-  X(CO_DICT_PARA_OVERLAP, 12, "the parameter group overlaps one with a lower sub-index; the node runs without it")
+  X(CO_DICT_PARA_OVERLAP, 12, "the parameter group overlaps one with a lower sub-index; the node runs without it")      \
+  X(CO_DICT_MISSING, 13, "this mandatory object is missing: 1000h, 1001h, 1018h:00 or 1018h:01")                       \
+  X(CO_DICT_MAP_TARGET, 14, "this mapping names an object that the table does not have")                               \
+  X(CO_DICT_MAP_LENGTH, 15, "this mapping names another length than that of the object, or more than 64 bits")
 // clang-format on
 
 /// \cond internal

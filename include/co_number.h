@@ -81,6 +81,38 @@ extern const CO_OBJ_TYPE COTReal64;  ///< functions of CO_TREAL64
 #define CO_TREAL64 ((const CO_OBJ_TYPE*)&COTReal64)  ///< REAL64; Data: a double
 /// \}
 
+/// Type and Data of an entry for a variable whose size the compiler checks: "size of array is negative" if it is not
+/// that of the type. A variable that is too small would make the stack write to its neighbours.
+///
+///     {CO_KEY(0x2100, 0, CO_OBJ____PRW), CO_VAR(UNSIGNED16, Speed)},
+///
+/// \a type: BOOLEAN, SIGNED8…64, UNSIGNED8…64, REAL32 or REAL64. \a variable:
+/// a variable with static storage, or an element of an array or structure.
+#define CO_VAR(type, variable) \
+  CO_T##type, (CO_DATA)(&(variable) + 0 * sizeof(char[sizeof(variable) == CO_BYTES_##type ? 1 : -1]))
+
+/// \cond internal
+#define CO_BYTES_BOOLEAN 1u
+#define CO_BYTES_UNSIGNED8 1u
+#define CO_BYTES_UNSIGNED16 2u
+#define CO_BYTES_UNSIGNED24 4u
+#define CO_BYTES_UNSIGNED32 4u
+#define CO_BYTES_UNSIGNED40 8u
+#define CO_BYTES_UNSIGNED48 8u
+#define CO_BYTES_UNSIGNED56 8u
+#define CO_BYTES_UNSIGNED64 8u
+#define CO_BYTES_SIGNED8 1u
+#define CO_BYTES_SIGNED16 2u
+#define CO_BYTES_SIGNED24 4u
+#define CO_BYTES_SIGNED32 4u
+#define CO_BYTES_SIGNED40 8u
+#define CO_BYTES_SIGNED48 8u
+#define CO_BYTES_SIGNED56 8u
+#define CO_BYTES_SIGNED64 8u
+#define CO_BYTES_REAL32 4u
+#define CO_BYTES_REAL64 8u
+/// \endcond
+
 #ifdef __cplusplus
 }
 #endif

@@ -12,7 +12,7 @@ static CO_OBJ Od[] = {
     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&HeartbeatTime)},
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},   // identity: one entry
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},  // vendor-ID
-    {CO_KEY(0x2100, 0, CO_OBJ____PRW), CO_TUNSIGNED8, (CO_DATA)(&Hour)},
+    {CO_KEY(0x2100, 0, CO_OBJ____PRW), CO_VAR(UNSIGNED8, Hour)},
     CO_OBJ_DICT_ENDMARK,
 };
 

@@ -337,6 +337,41 @@ constexpr CO_DICT_FAULT check_unknown([[maybe_unused]] const CO_OBJ_TYPE* type, 
   return CO_DICT_OK;
 }
 
+/// Objects of CiA 301 that have a number of a certain width, whatever the type of the entry: index, sub-indices, width.
+/// [CiA 301, 7.5.2]
+struct Standard {
+  std::uint16_t first;     ///< first index
+  std::uint16_t last;      ///< last index
+  std::uint8_t first_sub;  ///< first sub-index
+  std::uint8_t last_sub;   ///< last sub-index
+  std::uint8_t width;      ///< bytes of the value
+};
+
+/// The objects; others may have any type.
+inline constexpr Standard standard[] = {
+    {0x1000, 0x1000, 0, 0, 4},   {0x1001, 0x1001, 0, 0, 1},   {0x1002, 0x1002, 0, 0, 4}, {0x1003, 0x1003, 0, 0, 1},
+    {0x1003, 0x1003, 1, 254, 4}, {0x1005, 0x1007, 0, 0, 4},   {0x100C, 0x100C, 0, 0, 2}, {0x100D, 0x100D, 0, 0, 1},
+    {0x1010, 0x1011, 0, 0, 1},   {0x1010, 0x1011, 1, 127, 4}, {0x1012, 0x1014, 0, 0, 4}, {0x1015, 0x1015, 0, 0, 2},
+    {0x1016, 0x1016, 0, 0, 1},   {0x1016, 0x1016, 1, 127, 4}, {0x1017, 0x1017, 0, 0, 2}, {0x1018, 0x1018, 0, 0, 1},
+    {0x1018, 0x1018, 1, 4, 4},   {0x1019, 0x1019, 0, 0, 1},   {0x1020, 0x1020, 1, 2, 4}, {0x1028, 0x1028, 1, 127, 4},
+    {0x1029, 0x1029, 0, 254, 1}, {0x1200, 0x12FF, 0, 0, 1},   {0x1200, 0x12FF, 1, 2, 4}, {0x1200, 0x12FF, 3, 3, 1},
+    {0x1400, 0x15FF, 0, 0, 1},   {0x1400, 0x15FF, 1, 1, 4},   {0x1400, 0x15FF, 2, 2, 1}, {0x1400, 0x15FF, 5, 5, 2},
+    {0x1600, 0x17FF, 0, 0, 1},   {0x1600, 0x17FF, 1, 64, 4},  {0x1800, 0x19FF, 0, 0, 1}, {0x1800, 0x19FF, 1, 1, 4},
+    {0x1800, 0x19FF, 2, 2, 1},   {0x1800, 0x19FF, 3, 3, 2},   {0x1800, 0x19FF, 5, 5, 2}, {0x1800, 0x19FF, 6, 6, 1},
+    {0x1A00, 0x1BFF, 0, 0, 1},   {0x1A00, 0x1BFF, 1, 64, 4},  {0x1F80, 0x1F80, 0, 0, 4},
+};
+
+/// Returns whether an entry of a type of the library has the width that CiA 301 defines for its object.
+constexpr bool has_standard_width(std::uint32_t key, std::uint8_t width) {
+  for (const Standard& object : standard) {
+    if (rules::index_of(key) >= object.first && rules::index_of(key) <= object.last &&
+        rules::sub_of(key) >= object.first_sub && rules::sub_of(key) <= object.last_sub) {
+      return width == object.width;
+    }
+  }
+  return true;
+}
+
 /// Checks all rules of the entry at \a position, except whether a PDO may map it. \a previous: key of the previous
 /// entry, 0 for the first. An entry with a type of the application is checked by check_entry() and check_unknown()
 /// only.
@@ -351,7 +386,10 @@ constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
     return fault != CO_DICT_OK ? fault : check_unknown(entry.Type, data);
   }
   const CO_DICT_FAULT of_type = rules::check_type(type.rule, entry.Key, has_data);
-  return of_type != CO_DICT_OK ? of_type : check_content(entry.Key, data);
+  if (of_type != CO_DICT_OK) {
+    return of_type;
+  }
+  return has_standard_width(entry.Key, type.width) ? check_content(entry.Key, data) : CO_DICT_WRONG_PLACE;
 }
 
 /// Returns the position of an entry, or the length of the table.
@@ -446,13 +484,76 @@ struct Finding {
   std::uint32_t key;    ///< key of the faulty entry, 0 without fault
 };
 
-/// Checks whether all mapped objects have flag P. Returns the first mapped object without it.
+/// Returns the bits of all constant mapping entries of a PDO or SRDO up to the one at \a place.
+template <const auto& Od>
+constexpr unsigned bits_until(const rules::Rule& rule, std::size_t place) {
+  unsigned bits = 0;
+  for (std::size_t n = 0; n <= place; ++n) {
+    bits += rules::index_of(Od[n].Key) == rules::index_of(Od[place].Key) ? mapped_by<Od>(rule, n) & 0xFFu : 0;
+  }
+  return bits;
+}
+
+/// Returns whether an entry can be mapped with so many bits. Types of the application and bytes may have any length.
+template <const auto& Od>
+constexpr bool has_bits(std::size_t position, unsigned bits) {
+  const Type type = type_of(Od[position]);
+  const bool is_bit = type.value == Value::boolean && bits == 1 && USE_PDO_BITS != 0;
+  return type.width == 0 || is_bit || bits == type.width * 8u;
+}
+
+/// Checks the mapping entry at \a place, if it is constant.
+template <const auto& Od>
+constexpr CO_DICT_FAULT check_mapping(const rules::Rule& rule, std::size_t place) {
+  const std::uint32_t mapping = mapped_by<Od>(rule, place);
+  if (mapping == 0) {
+    return CO_DICT_OK;
+  }
+  const std::size_t mapped = position(Od, mapping);
+  if (mapped == length(Od)) {
+    return CO_DICT_MAP_TARGET;
+  }
+  constexpr unsigned most = 64;
+  return has_bits<Od>(mapped, mapping & 0xFFu) && bits_until<Od>(rule, place) <= most ? CO_DICT_OK : CO_DICT_MAP_LENGTH;
+}
+
+/// Checks whether all mapped objects have flag P, exist and have the mapped length. Returns the first mapped object
+/// without flag P, or the wrong mapping entry.
 template <const auto& Od>
 constexpr Finding check_mappings() {
   for (std::size_t place = 0; place < length(Od); ++place) {
     const std::size_t mapped = find_unmappable<Od>(place);
     if (mapped < length(Od)) {
       return {CO_DICT_NOT_MAPPABLE, Od[mapped].Key};
+    }
+    const CO_DICT_FAULT of_pdo = check_mapping<Od>(rules::pdo_mapping, place);
+    const CO_DICT_FAULT fault = of_pdo != CO_DICT_OK ? of_pdo : check_mapping<Od>(rules::srdo_mapping, place);
+    if (fault != CO_DICT_OK) {
+      return {fault, Od[place].Key};
+    }
+  }
+  return {CO_DICT_OK, 0};
+}
+
+/// Returns whether the table has objects of the communication profile.
+template <const auto& Od>
+constexpr bool has_communication() {
+  for (std::size_t n = 0; n < length(Od) && !rules::is_end(Od[n].Key); ++n) {
+    if (rules::index_of(Od[n].Key) >= 0x1000 && rules::index_of(Od[n].Key) < 0x2000) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Returns the first mandatory entry that the table does not have. [CiA 301, 7.5.1]
+template <const auto& Od>
+constexpr Finding check_mandatory() {
+  constexpr std::uint32_t mandatory[] = {CO_DEV(0x1000u, 0u), CO_DEV(0x1001u, 0u), CO_DEV(0x1018u, 0u),
+                                         CO_DEV(0x1018u, 1u)};
+  for (const std::uint32_t key : mandatory) {
+    if (position(Od, key) == length(Od)) {
+      return {CO_DICT_MISSING, key};
     }
   }
   return {CO_DICT_OK, 0};
@@ -475,7 +576,8 @@ constexpr Finding check() {
     }
     previous = key;
   }
-  return check_mappings<Od>();
+  const Finding finding = check_mappings<Od>();
+  return finding.fault != CO_DICT_OK || !has_communication<Od>() ? finding : check_mandatory<Od>();
 }
 
 /// Returns true, or causes a compile error that names the first fault of the table. Causes a warning if an SRDO and an

@@ -262,9 +262,13 @@ TEST_CASE("1003h and 1014h: an entry with their types or flags at a wrong index 
 // Dictionary that is checked at compile time.
 std::uint8_t number_of_errors;
 std::uint32_t newest_error;
-constexpr CO_OBJ od[] = {{CO_KEY(0x1003, 0, CO_OBJ_____RW), CO_TEMCY_HIST, CO_DATA(&number_of_errors)},
+constexpr CO_OBJ od[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+                         {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(0)},
+                         {CO_KEY(0x1003, 0, CO_OBJ_____RW), CO_TEMCY_HIST, CO_DATA(&number_of_errors)},
                          {CO_KEY(0x1003, 1, CO_OBJ_____R_), CO_TEMCY_HIST, CO_DATA(&newest_error)},
                          {CO_KEY(0x1014, 0, CO_OBJ_DN__R_), CO_TEMCY_ID, 0x80},
+                         {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
+                         {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
                          CO_OBJ_DICT_ENDMARK};
 CO_OD_CHECK(od);
 static_assert(std::is_same_v<co::dictionary::Natural<od, 0x1003, 0>, std::uint8_t>);

@@ -266,9 +266,13 @@ TEST_CASE("1016h: entries at a wrong index or with flag D are refused at start; 
 CO_HBCONS proved[2];
 std::uint8_t behaviour;
 constexpr CO_OBJ table[] = {
+    {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(0)},
     {CO_KEY(0x1016, 0, CO_OBJ_D___R_), CO_THB_CONS, (CO_DATA)(2)},
     {CO_KEY(0x1016, 1, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)(&proved[0])},
     {CO_KEY(0x1016, 2, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)(&proved[1])},
+    {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
+    {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x1029, 0, CO_OBJ_D___R_), CO_TERROR_BEHAVIOUR, (CO_DATA)(1)},
     {CO_KEY(0x1029, 1, CO_OBJ_____RW), CO_TERROR_BEHAVIOUR, (CO_DATA)(&behaviour)},
     {CO_KEY(0x1F80, 0, CO_OBJ_D___R_), CO_TNMT_STARTUP, (CO_DATA)(4)},

@@ -473,6 +473,7 @@ std::uint16_t torque = 0x2221;
 
 /// A dictionary in read-only memory that is checked at compile time.
 constexpr CO_OBJ read_only[] = {
+    {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, &speed},
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 1},
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, 1},

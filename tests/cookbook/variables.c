@@ -16,14 +16,14 @@ static const CO_OBJ Dictionary[] = {
     {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, (CO_DATA)(&ErrorRegister)},
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
-    {CO_KEY(0x2000, 0, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&Mode)},
-    {CO_KEY(0x2001, 0, CO_OBJ___APR_), CO_TSIGNED16, (CO_DATA)(&Temperature)},
-    {CO_KEY(0x2002, 0, CO_OBJ____PRW), CO_TREAL32, (CO_DATA)(&Gain)},
+    {CO_KEY(0x2000, 0, CO_OBJ_____RW), CO_VAR(UNSIGNED8, Mode)},
+    {CO_KEY(0x2001, 0, CO_OBJ___APR_), CO_VAR(SIGNED16, Temperature)},
+    {CO_KEY(0x2002, 0, CO_OBJ____PRW), CO_VAR(REAL32, Gain)},
     {CO_KEY(0x2003, 0, CO_OBJ_D___R_), CO_TUNSIGNED16, (CO_DATA)(8)},  // a constant
     {CO_KEY(0x2004, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(3)},   // an array: highest sub-index
-    {CO_KEY(0x2004, 1, CO_OBJ_____RW), CO_TUNSIGNED16, (CO_DATA)(&Limit[0])},
-    {CO_KEY(0x2004, 2, CO_OBJ_____RW), CO_TUNSIGNED16, (CO_DATA)(&Limit[1])},
-    {CO_KEY(0x2004, 3, CO_OBJ_____RW), CO_TUNSIGNED16, (CO_DATA)(&Limit[2])},
+    {CO_KEY(0x2004, 1, CO_OBJ_____RW), CO_VAR(UNSIGNED16, Limit[0])},
+    {CO_KEY(0x2004, 2, CO_OBJ_____RW), CO_VAR(UNSIGNED16, Limit[1])},
+    {CO_KEY(0x2004, 3, CO_OBJ_____RW), CO_VAR(UNSIGNED16, Limit[2])},
 };
 
 void variables_are_read_and_written(void) {

@@ -15,11 +15,14 @@ constexpr CO_OBJ_TYPE_EX extended_type = {{nullptr, nullptr, nullptr, nullptr, C
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x0007, 0, CO_OBJ____P_W), CO_TUNSIGNED32, 0},
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(0)},
     {CO_KEY(0x1003, 0, CO_OBJ_D___R_), CO_TEMCY_HIST, (CO_DATA)(0)},
     {CO_KEY(0x1003, 1, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)(&number)},
     {CO_KEY(0x1003, 254, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)(&number)},
     {CO_KEY(0x1014, 0, CO_OBJ_DN__R_), CO_TEMCY_ID, (CO_DATA)(0x80)},
     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&heartbeat_time)},
+    {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
+    {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x1200, 1, CO_OBJ_DN__R_), CO_TSDO_ID, (CO_DATA)(0x600)},
     {CO_KEY(0x1200, 2, CO_OBJ__N__R_), CO_TSDO_ID, (CO_DATA)(&number)},
     {CO_KEY(0x1280, 1, CO_OBJ_D___R_), CO_TSDO_ID, (CO_DATA)(0x605)},
@@ -49,7 +52,7 @@ constexpr CO_OBJ od[] = {
 CO_OD_CHECK(od);
 
 void scope() {
-  static constexpr CO_OBJ inner[] = {{CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&byte)}};
+  static constexpr CO_OBJ inner[] = {{CO_KEY(0x2001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&byte)}};
   CO_OD_CHECK(inner);
   static_cast<void>(inner);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect to compile
 // Mappings without an object that lacks flag P: entries above sub 0, entries of multiplex PDOs, empty ones, static data
-// types, objects that the table does not have, and mappings in variables.
+// types, and mappings in variables.
 #define USE_MPDO 1
 #include "lexican/dictionary.hpp"
 
@@ -10,6 +10,10 @@ std::uint8_t other;
 std::uint32_t mapping = CO_LINK(0x2001, 0, 8);
 
 constexpr CO_OBJ od[] = {
+    {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(0)},
+    {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
+    {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x1600, 0, CO_OBJ_D___R_), CO_TPDO_NUM, (CO_DATA)(2)},
     {CO_KEY(0x1600, 1, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x0005, 0, 8))},
     {CO_KEY(0x1600, 2, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x2000, 0, 8))},
@@ -22,7 +26,6 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x1A00, 1, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(0)},
     {CO_KEY(0x1A00, 2, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA)(&mapping)},
     {CO_KEY(0x1A00, 65, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(CO_LINK(0x2001, 0, 8))},
-    {CO_KEY(0x1A01, 1, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x3000, 0, 8))},
     {CO_KEY(0x1C00, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(CO_LINK(0x2001, 0, 8))},
     {CO_KEY(0x2000, 0, CO_OBJ____PRW), CO_TUNSIGNED8, (CO_DATA)(&mappable)},
     {CO_KEY(0x2001, 0, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&other)},

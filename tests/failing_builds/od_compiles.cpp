@@ -13,6 +13,9 @@ constexpr OD_TYPE own_type = OD_VALUE(&own, OD_DISABLED);
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(0)},
+    {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
+    {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x2100, 0, CO_OBJ____PRW), CO_TUNSIGNED32, (CO_DATA)(&number)},
     {CO_KEY(0x2101, 0, CO_OBJ__N__RW), OD_TUNSIGNED32, (CO_DATA)(&number)},
     {CO_KEY(0x2102, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&domain)},

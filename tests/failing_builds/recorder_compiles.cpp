@@ -9,6 +9,9 @@ std::uint8_t enable;
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(0)},
+    {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
+    {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x2301, 1, CO_OBJ_____RW), CO_TREC_CONFIG, (CO_DATA)(&recorder)},
     {CO_KEY(0x2301, 2, CO_OBJ_____RW), CO_TREC_CONFIG, (CO_DATA)(&recorder)},
     {CO_KEY(0x2301, 3, CO_OBJ_____RW), CO_TVISIBLE_STRING, (CO_DATA)(&recorder.Name)},

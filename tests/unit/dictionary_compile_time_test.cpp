@@ -32,6 +32,8 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0x000F0191)},
     {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, (CO_DATA)(&error_register)},
     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&heartbeat_time)},
+    {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
+    {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x1200, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(2)},
     {CO_KEY(0x1200, 1, CO_OBJ_DN__R_), CO_TSDO_ID, (CO_DATA)(0x600)},
     {CO_KEY(0x1200, 2, CO_OBJ_DN__R_), CO_TSDO_ID, (CO_DATA)(0x580)},
@@ -47,23 +49,23 @@ constexpr CO_OBJ od[] = {
 };
 CO_OD_CHECK(od);
 
-constexpr CO_OBJ without_end_mark[] = {{CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)}};
+constexpr CO_OBJ without_end_mark[] = {{CO_KEY(0x2001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)}};
 CO_OD_CHECK(without_end_mark);
 
 constexpr CO_OBJ empty[] = {CO_OBJ_DICT_ENDMARK};
 CO_OD_CHECK(empty);
 
-constexpr CO_OBJ reserve[4] = {{CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)}};
+constexpr CO_OBJ reserve[4] = {{CO_KEY(0x2001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)}};
 CO_OD_CHECK(reserve);
 
-static_assert(co::find(od, CO_DEV(0x2100, 1)) == &od[8]);
-static_assert(co::find(od, CO_KEY(0x2100, 1, CO_OBJ_____RW)) == &od[8], "flags do not count");
+static_assert(co::find(od, CO_DEV(0x2100, 1)) == &od[10]);
+static_assert(co::find(od, CO_KEY(0x2100, 1, CO_OBJ_____RW)) == &od[10], "flags do not count");
 static_assert(co::find(od, CO_DEV(0x2100, 7)) == nullptr);
 static_assert(co::find(od, 0) == nullptr, "the end mark is no entry");
 static_assert(co::find(empty, CO_DEV(0x1001, 0)) == nullptr);
-static_assert(co::find(without_end_mark, CO_DEV(0x1001, 0)) == &without_end_mark[0]);
+static_assert(co::find(without_end_mark, CO_DEV(0x2001, 0)) == &without_end_mark[0]);
 static_assert(co::entry<od, 0x0005, 0>() == &od[0]);
-static_assert(co::entry<od, 0xFFFF, 0xFF>() == &od[14]);
+static_assert(co::entry<od, 0xFFFF, 0xFF>() == &od[16]);
 static_assert(co::entry<od, 0x2100, 0>()->Data == 42, "a value is known to the compiler");
 
 // Limits of the rules.
@@ -121,15 +123,15 @@ TEST_CASE("compile-time dictionary: the first of several faults is reported") {
 }
 
 TEST_CASE("compile-time dictionary: a table in a function is checked") {
-  static constexpr CO_OBJ local[] = {{CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)}};
+  static constexpr CO_OBJ local[] = {{CO_KEY(0x2001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)}};
   CO_OD_CHECK(local);
-  CHECK(co::entry<local, 0x1001, 0>() == &local[0]);
+  CHECK(co::entry<local, 0x2001, 0>() == &local[0]);
 }
 
 TEST_CASE("compile-time dictionary: an entry found by the compiler equals that of the run-time search") {
   CO_NODE node = {};
   REQUIRE(CODictInit(&node.Dict, &node, const_cast<CO_OBJ*>(od), sizeof od / sizeof od[0]) == std::size(od) - 1);
-  CHECK(node.Dict.Num == 15);
+  CHECK(node.Dict.Num == 17);
   CHECK(CODictFind(&node.Dict, CO_DEV(0x2100, 1)) == co::entry<od, 0x2100, 1>());
   CHECK(CODictFind(&node.Dict, CO_DEV(0xFFFF, 0xFF)) == co::entry<od, 0xFFFF, 0xFF>());
 }

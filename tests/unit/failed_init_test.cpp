@@ -58,10 +58,12 @@ struct Device {
 
 std::uint8_t sdo_buffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
 
+#if USE_SDO_BLOCK
 void short_sdo_buffer(Device& device) {
   device.spec.SdoBuf = sdo_buffer;
   device.ext.SdoBufLen = sizeof sdo_buffer - 1;
 }
+#endif
 
 struct Failure {
   std::string name;

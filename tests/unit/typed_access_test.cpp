@@ -43,6 +43,9 @@ const CO_OBJ_TYPE own = {own_size, nullptr, own_read, own_write, nullptr};
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0x000F0191)},
+    {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(0)},
+    {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
+    {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x2001, 0, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&u8)},
     {CO_KEY(0x2002, 0, CO_OBJ_____RW), CO_TSIGNED16, (CO_DATA)(&i16)},
     {CO_KEY(0x2003, 0, CO_OBJ_____RW), CO_TUNSIGNED24, (CO_DATA)(&u24)},
