@@ -392,6 +392,39 @@ TEST_CASE("MPDO from a source: changes outside Operational are not queued while 
   callbacks() = Callbacks{};
 }
 
+// Returns the action of the Size function of 22FFh.
+std::function<void(CO_NODE*)>& size_action() {
+  static std::function<void(CO_NODE*)> action;
+  return action;
+}
+
+const CO_OBJ_TYPE* acting_type() {
+  static const CO_OBJ_TYPE type = {[](CO_OBJ*, CO_NODE* node, std::uint32_t) -> std::uint32_t {
+                                     if (size_action()) size_action()(node);
+                                     return 1;
+                                   },
+                                   nullptr, [](CO_OBJ*, CO_NODE*, void*, std::uint32_t) { return CO_ERR_NONE; },
+                                   nullptr, nullptr};
+  return &type;
+}
+
+TEST_CASE("MPDO from a source: a Size function that ends the PDO ends the transmission") {
+  for (const CO_MODE mode : {CO_PREOP, CO_STOP, CO_INVALID}) {
+    CAPTURE(mode);
+    MpdoTable table = from_source();
+    table.scan = {0x0122FF01, 0x01220101};
+    size_action() = nullptr;
+    MpdoNode node(table, [](Setup& setup) { setup.with({CO_KEY(0x22FF, 1, CO_OBJ____PR_), acting_type(), 0}); });
+    node.start();
+    size_action() = [&](CO_NODE* it) { mode == CO_INVALID ? CONodeStop(it) : CONmtSetMode(&it->Nmt, mode); };
+    CHECK(node.request(0) == CO_ERR_NMT_MODE);
+    size_action() = nullptr;
+    CHECK(node.mode() == mode);
+    CHECK(node.error() == CO_ERR_NONE);
+    node.silent();
+  }
+}
+
 TEST_CASE("MPDO from a source: switching the PDO off or changing its list drops queued objects [X8]") {
   MpdoNode node(from_source(100));
   node.start();

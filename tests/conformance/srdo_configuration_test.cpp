@@ -432,6 +432,34 @@ TEST_CASE("SRDO states: direction 0 is deleted, in each NMT state and over reset
   callbacks().fatal_errors = 0;
 }
 
+// Writes 1301h:1 and requests the SRDO in its Init function.
+const CO_OBJ_TYPE* switching_type() {
+  static const CO_OBJ_TYPE type = {[](CO_OBJ*, CO_NODE*, std::uint32_t) -> std::uint32_t { return 1; },
+                                   [](CO_OBJ* obj, CO_NODE* node) {
+                                     const auto direction = static_cast<std::uint8_t>(obj->Data);
+                                     CHECK(CODictWrByte(&node->Dict, CO_DEV(0x1301, 1), direction) == CO_ERR_NONE);
+                                     CHECK(COSrdoRequest(node, 0) == CO_ERR_NMT_MODE);
+                                     return CO_ERR_NONE;
+                                   },
+                                   nullptr, nullptr, nullptr};
+  return &type;
+}
+
+TEST_CASE("SRDO states: a direction that an Init function writes in CONodeInit() determines the first state [SR7]") {
+  for (const std::uint8_t direction : {std::uint8_t{0}, std::uint8_t{1}, std::uint8_t{2}}) {
+    CAPTURE(unsigned{direction});
+    SrdoTable table;
+    table.srdo[0].set(direction == 0 ? 2 : 0, 0x109, pair_of_3);
+    SrdoNode node(table, [&](Setup& setup) {
+      setup.may_change(0x1301, 1).may_change(0x13FE, 0).with(
+          {CO_KEY(0x2400, 0, CO_OBJ_____R_), switching_type(), direction});
+    });
+    CHECK(node.srdo[0].direction == direction);
+    CHECK(node.valid == 0);
+    CHECK(node.state() == (direction == 0 ? CO_SRDO_DELETED : CO_SRDO_NOT_OPERATIONAL));
+  }
+}
+
 TEST_CASE("SRDO types: null data is found when the node starts [SR1]") {
   for (const auto& [index, sub, type] :
        {std::tuple<std::uint16_t, std::uint8_t, const CO_OBJ_TYPE*>{0x1301, 1, CO_TSRDO_COM},

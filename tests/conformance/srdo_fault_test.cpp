@@ -309,6 +309,22 @@ TEST_CASE("SRDO faults: the callback may leave Operational and then no EMCY is s
   node.silent();
 }
 
+#if USE_EMCY && USE_EMCY_QUEUE
+TEST_CASE("SRDO faults: COEmcySet() in the callback for the change to Stopped sends no EMCY of Operational [SR14]") {
+  SrdoTable table;
+  table.srdo[0].receive(0x109, pair_of_3);
+  SrdoNode node(table, [](Setup& setup) { setup.emergencies({{CO_EMCY_REG_TEMP, CO_EMCY_CODE_TEMP_ERR}}); });
+  node.start();
+  callbacks().mode_change = [](CO_NMT* nmt, CO_MODE) { CONodeCanEvent(nmt->Node, CO_CAN_PASSIVE); };
+  callbacks().srdo_change = [](CO_NODE* of, std::uint8_t, CO_SRDO_STATE) { COEmcySet(&of->Emcy, 0, nullptr); };
+  node.rx("000#0201");
+  CHECK(node.mode() == CO_STOP);
+  CHECK(COEmcyGet(&node->Emcy, 0) == 1);
+  CHECK(node.objects.error_register == 0x19);
+  node.silent();
+}
+#endif
+
 TEST_CASE("SRDO faults: after a reset the node receives neither frame of a pair until Operational [SR14]") {
   for (const char* const reset : {"000#8101", "000#8201"}) {
     Established node;

@@ -77,6 +77,9 @@ class Bench {
     ext_.Callbacks = (bits & 8U) != 0 ? &fuzz::callbacks : nullptr;
     ext_.Writable = (bits & 16U) != 0 ? [](void*, const void*, std::uint32_t) { return bench->chance(16) != 15; }
                                       : static_cast<bool (*)(void*, const void*, std::uint32_t)>(nullptr);
+    CORingInit(&mainline_, mainline_frames_, static_cast<std::uint16_t>(std::size(mainline_frames_)));
+    ext_.Mainline = (bits & 64U) != 0 ? &mainline_ : nullptr;
+    ext_.Foreign = (bits & 128U) != 0;
     all_ = fuzz::callbacks_dictionary(objects_, services_);
     full_ = other_ = all_;
     std::memset(static_cast<void*>(&node_), 0xA5, sizeof node_);
@@ -237,7 +240,7 @@ class Bench {
   void interrupt() {
     if (alarm_ <= now_) {
       alarm_ = never;
-      if (node_.Nmt.Mode != CO_INVALID) {
+      if (CONmtGetMode(&node_.Nmt) != CO_INVALID) {
         COTmrService(&node_.Tmr);
       }
     }
@@ -262,22 +265,23 @@ class Bench {
       case 0x3F: process(); return;
       case 0x3E: run_timers(); return;
       case 0x3D: unlocked([this] { CONodeNextDeadline(&node_); }); return;
-      case 0x3C:
-        ++now_;
-        interrupt();
-        return;
-      default: break;
+      case 0x3C: ++now_, interrupt(); return;
     }
     with_lock([&] {
       if (number < std::size(actions)) {
         (this->*actions[number])();
       } else {
-        network_.act(static_cast<std::uint8_t>(number - std::size(actions)));
+        number == 0x3B   ? use_pdo_flags()
+        : number == 0x3A ? use_value()
+                         : network_.act(static_cast<std::uint8_t>(number - std::size(actions)));
       }
     });
   }
 
   void process() {
+    if (depth_ == 0) {  // callbacks must not call CONodeRealTime()
+      unlocked([this] { CONodeRealTime(&node_); });
+    }
     unlocked([this] { CONodeProcess(&node_); });
   }
   void run_timers() {
@@ -308,6 +312,9 @@ class Bench {
     CONodeSetStatus(&node_, input_.byte());
     CONodeGetStatus(&node_);
     CONodeGetCounters(&node_);
+    CODictGetFault(&node_.Dict, nullptr);
+    COCSdoGetTotal(node_.CSdo);
+    COCSdoGetNum(node_.CSdo);
   }
   void send_gfc() { COGfcSend(&node_); }
   void use_srdo() {
@@ -375,14 +382,12 @@ class Bench {
   void write_any() {
     const std::uint32_t dev = any_key();
     const std::uint32_t value = any_value();
+    std::uint8_t bytes[fuzz::long_value] = {};
     switch (COObjGetSize(CODictFind(&node_.Dict, dev), &node_, 0)) {
       case 1: CODictWrByte(&node_.Dict, dev, static_cast<std::uint8_t>(value)); break;
       case 2: CODictWrWord(&node_.Dict, dev, static_cast<std::uint16_t>(value)); break;
       case 4: CODictWrLong(&node_.Dict, dev, value); break;
-      default: {
-        std::uint8_t bytes[fuzz::long_value] = {};
-        CODictWrBuffer(&node_.Dict, dev, bytes, 1 + value % fuzz::long_value);
-      }
+      default: CODictWrBuffer(&node_.Dict, dev, bytes, 1 + value % fuzz::long_value); break;
     }
   }
   void read_any() {
@@ -433,7 +438,32 @@ class Bench {
             io.write(&io.stream, bytes, size, &number);
           }
         }
-        break;
+    }
+  }
+
+  void use_pdo_flags() {
+    OD_entry_t* const entry = OD_find(&index_, CO_GET_IDX(any_key()));
+    const std::uint8_t sub = below(16);
+    OD_clearFlagsPDO(entry, sub, OD_getFlagsPDO(entry, sub) | input_.byte());
+    OD_getStorageName(&index_, OD_getStorageGroup(entry, sub));
+    OD_findStorageGroup(&index_, "group");
+  }
+  void use_value() {
+    const std::uint32_t dev = any_key();
+    CO_OBJ* const obj = CODictFind(&node_.Dict, dev);
+    const auto size = static_cast<std::uint8_t>(std::min(COObjGetSize(obj, &node_, 8), std::uint32_t{8}));
+    std::uint32_t number = below(256);
+    std::uint16_t word = 0;
+    CO_IF_FRM frame{};
+    switch (below(8)) {
+      case 0: COObjRdValue(obj, &node_, frame.Data, size); break;
+      case 1: COObjWrValue(obj, &node_, &number, std::min(size, std::uint8_t{4})); break;
+      case 2: CODictRdByte(&node_.Dict, dev, frame.Data); break;
+      case 3: CODictRdWord(&node_.Dict, dev, &word); break;
+      case 4: CODictRdLong(&node_.Dict, dev, &number); break;
+      case 5: COLssNvmLoad(&node_, 384, &number, frame.Data); break;
+      case 6: COIfNvmRead(&node_.If, number, frame.Data, size); break;
+      default: COIfCanReset(&node_.If), COIfCanRead(&node_.If, &frame); break;
     }
   }
 
@@ -511,12 +541,11 @@ class Bench {
   void use_groups() {
     const CO_PARA* const group = &services_.group[below(2)];
     switch (below(6)) {
-      case 0:
-      case 1: COParaStore(group, &node_); break;
       case 2: COParaRestore(group, &node_); break;
       case 3: CONodeParaLoad(&node_, input_.flag() ? CO_RESET_NODE : CO_RESET_COM); break;
       case 4: COLssNvmStore(&node_, 384, 125000, input_.byte()); break;
-      default: nvm_.is_off = input_.flag(); break;
+      case 5: nvm_.is_off = input_.flag(); break;
+      default: COParaStore(group, &node_); break;
     }
   }
   void use_commands() {
@@ -533,7 +562,7 @@ class Bench {
   void check() const {
     require(!locked_ && !objects_locked_, "no lock is left");
     require(depth_ == 0 && types_ == 0, "all functions have returned");
-    require((node_.State & ~1) == 0 && node_.Pending == 0, "no deferred work is left");
+    require((node_.State & ~1) == 0 && (node_.Pending == 0 || ext_.Mainline != nullptr), "no deferred work is left");
     require(node_.TxQueue.Num <= node_.TxQueue.Len, "the transmit queue fits its memory");
     require(node_.TxQueue.Fixed <= node_.TxQueue.Num, "no more frames are fixed than queued");
     require(node_.Routes.Start[CO_ROUTE_CLASS_N] <= CO_ROUTE_N, "the routes fit their memory");
@@ -577,7 +606,7 @@ class Bench {
                                                           [](std::uint8_t byte) { return byte == 0; });
       return is_clean && (!is_answer || frame.DLC == 8) ? "" : "length, or bytes beyond the DLC not 0";
     }
-    if (frame.Identifier == 0x700U + node_.NodeId) {
+    if (frame.Identifier == 0x700U + CONmtGetNodeId(&node_.Nmt)) {
       frame.Data[0] &= 0x7FU;  // toggle bit of node guarding
     }
     return test::fault_of(frame, node_.NodeId, node_.Nmt.Mode, false);
@@ -630,6 +659,8 @@ class Bench {
   std::int16_t timer_ids_[4] = {};
   CO_TMR_MEM timers_[own_timers] = {};
   CO_IF_FRM queue_[3] = {};
+  CO_IF_FRM mainline_frames_[3] = {};
+  CO_RING mainline_{};
   std::uint8_t sdo_buffer_[CO_SSDO_N * CO_SDO_BUF_BYTE] = {};
   CO_NODE_EXT ext_{};
   CO_NODE node_;
