@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 . "$root/tests/lanes/tidy.sh"
-about="clang-tidy over src, drivers and tools, with the default limit of its analyzer"
+about="clang-tidy over src, drivers and codict, with the default limit of its analyzer"
 unset minutes
 packages+=("${tool_packages[@]}")
-places=(src drivers tools)
+places=(src drivers tools/codict/src)
 with_tools=ON
 limits=()

@@ -132,14 +132,14 @@ Option Arguments::add_flag(const std::string& names, bool& value, const std::str
 }
 
 Option Arguments::add_choice(const std::string& names, std::vector<std::string> words, const std::string& help,
-                             Choose choose) {
+                             const Choose& choose) {
   const auto set = [words, choose](const std::string& word) { choose(positions(words, {word})); };
   Option option{*grammar_, *app_->add_option_function<std::string>(names, set, help)->type_name("ENUM")};
   return option.one_of(std::move(words));
 }
 
 Option Arguments::add_choices(const std::string& names, std::vector<std::string> words, const std::string& help,
-                              Choose choose) {
+                              const Choose& choose) {
   const auto set = [words, choose](const std::vector<std::string>& given) { choose(positions(words, given)); };
   Option option{*grammar_, *app_->add_option_function<std::vector<std::string>>(names, set, help)->type_name("ENUM")};
   return option.one_of(std::move(words)).single_values();

@@ -94,8 +94,10 @@ class Arguments {
     }
     return words;
   }
-  Option add_choice(const std::string& names, std::vector<std::string> words, const std::string& help, Choose choose);
-  Option add_choices(const std::string& names, std::vector<std::string> words, const std::string& help, Choose choose);
+  Option add_choice(const std::string& names, std::vector<std::string> words, const std::string& help,
+                    const Choose& choose);
+  Option add_choices(const std::string& names, std::vector<std::string> words, const std::string& help,
+                     const Choose& choose);
 
   Grammar* grammar_;
   CLI::App* app_;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -159,7 +160,7 @@ std::string text_of(const network::Network& network, const network::Links& links
   return text;
 }
 
-std::uint64_t permille(double percent) { return static_cast<std::uint64_t>(percent * 10 + 0.5); }
+std::uint64_t permille(double percent) { return static_cast<std::uint64_t>(std::llround(percent * 10)); }
 
 Json json_of(const network::Network& network, const network::Links& links, const network::Traffic& traffic) {
   Json json{{"schema", "codict-network-1"}, {"bit_rate", traffic.bit_rate}};

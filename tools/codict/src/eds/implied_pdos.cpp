@@ -83,7 +83,7 @@ Object communication(const Direction& direction, std::uint16_t number, std::uint
   Object object = record(static_cast<std::uint16_t>(direction.first + number),
                          fmt::format("{} communication parameter", direction.name));
   object.subs.push_back(cob_id(direction, number));
-  for (std::uint8_t at = 1; at < parameters.size(); ++at) {
+  for (std::size_t at = 1; at < parameters.size(); ++at) {
     if ((((mask | mandatory) >> at) & 1U) != 0) {
       const Parameter& parameter = parameters[at];
       object.subs.push_back(

@@ -11,7 +11,7 @@ namespace lexican::codict {
 
 namespace {
 
-std::string with_name(std::string subject, const Text& name) {
+std::string with_name(const std::string& subject, const Text& name) {
   return name.text.empty() ? subject : subject + " " + in_quotes(name.text);
 }
 
