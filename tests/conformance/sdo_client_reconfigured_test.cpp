@@ -14,6 +14,7 @@ using namespace test;
 class Waiting : public SdoClient {
  public:
   Waiting() {
+    frames_per_call(4);  // answer of the server, aborts of the client, and the request of its callback
     may_change(0x1280, 1);
     may_change(0x1280, 2);
     start_upload(0x2000, 5, 28);

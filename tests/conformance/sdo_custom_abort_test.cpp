@@ -99,12 +99,12 @@ TEST_CASE("SDO custom abort: every code but 0 is sent, in every kind of transfer
     refusing.data = counting(20);
     node.ask("601#A40031007F000000", "581#C600310014000000");
     node.ask("601#A300000000000000", refused);
-    node.ask("601#C200310014000000", "581#A40031007F000000");
-    node.rx("601#0101020304050607");
-    node.rx("601#0208090A0B0C0D0E");
-    node.rx("601#830F101112131400");
+    CO_IF_FRM accepted = frame("581#A400310000000000");
+    CO_SET_BYTE(&accepted, CO_SDO_BUF_SEG, 4);
+    node.ask("601#C200310007000000", notation(accepted));
+    node.rx("601#8101020304050607");
     node.frames();
-    node.ask("601#C500000000000000", refused);
+    node.ask("601#C100000000000000", refused);
     check_idle(node);
 #endif
   }

@@ -82,7 +82,9 @@ SdoServerModel::Answer SdoServerModel::end_block(bool all) {
   if (all) {
     state_ = State::block_download_end;
   } else if (data_.size() - done_ == buffer_ * segment_bytes) {
-    object_->set(data_);
+    if (object_->is_stream()) {
+      object_->set(data_);
+    }
     done_ = data_.size();
   }
   const std::size_t room = buffer_ - (data_.size() - done_) / segment_bytes;

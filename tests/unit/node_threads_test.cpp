@@ -27,6 +27,7 @@ namespace {
 
 constexpr std::uint8_t node_id = 1;
 constexpr std::uint32_t memory_size = 1024;
+constexpr std::uint32_t no_remote = 0x40000000;  // COB-ID of a TPDO: no remote requests
 
 class Random {
  public:
@@ -500,7 +501,7 @@ class ThreadedNode {
   void add_pdo(std::uint32_t index, std::uint32_t n, std::uint32_t id, std::uint32_t type,
                const std::vector<std::uint32_t>& mapped) {
     const std::uint32_t number = (index == 0x1800 ? 3 : 0) + n;
-    pdo_ids_[number] = id;
+    pdo_ids_[number] = id | (index == 0x1800 && USE_PDO_RTR == 0 ? no_remote : 0);
     pdo_types_[number] = static_cast<std::uint8_t>(type);
     pdo_events_[number] = 5;
     table_.push_back(row(index + n, 1, CO_OBJ_____RW, CO_TPDO_ID, &pdo_ids_[number]));
@@ -555,7 +556,7 @@ class ThreadedNode {
     add_pdo(0x1400, 2, 0x401, 255, {0x20030020});
     add_pdo(0x1800, 0, 0x181, 1, {0x20010120, 0x20010220});
     add_pdo(0x1800, 1, 0x281, 255, {0x20020008});
-    add_pdo(0x1800, 2, 0x381, 253, {0x20030020});
+    add_pdo(0x1800, 2, 0x381, USE_PDO_RTR != 0 ? 253 : 254, {0x20030020});
     std::sort(table_.begin(), table_.end(),
               [](const CO_OBJ& left, const CO_OBJ& right) { return CO_GET_DEV(left.Key) < CO_GET_DEV(right.Key); });
     table_.push_back(CO_OBJ CO_OBJ_DICT_ENDMARK);
