@@ -46,6 +46,8 @@ class Host {
 
   /// Returns a text for the fault of the bus; empty: none so far.
   virtual std::string bus_fault() { return {}; }
+  /// Returns the number of frames that were lost before a node could read them: the driver's receive queue was full.
+  virtual std::uint32_t lost_frames() { return 0; }
   /// Returns true if the bus is permanently lost.
   virtual bool bus_lost() { return false; }
 

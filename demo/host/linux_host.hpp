@@ -85,6 +85,7 @@ class SocketCanHost : public LinuxHost {
   Can device_can() override { return {&co::SocketCanDriver, &device_}; }
   Can master_can() override { return {&co::SocketCanDriver, &master_}; }
   std::string bus_fault() override { return device_.error().empty() ? master_.error() : device_.error(); }
+  std::uint32_t lost_frames() override { return device_.lost() + master_.lost(); }
 
  private:
   std::vector<pollfd> poll_descriptors() override;

@@ -129,11 +129,19 @@ std::string about_master(Clock& clock, const Bus& bus, const Options& options) {
   return master + text(" --node %u --index 1008 read", clock.node_id());
 }
 
+void print_lost_frames(Host& host, View& view) {
+  if (host.lost_frames() != 0) {
+    view.note("", text("%u frames lost before the program could read them: the receive queue of the socket was full",
+                       host.lost_frames()));
+  }
+}
+
 /// Runs the tour: the master uses the functions of the node one after the other. Returns the exit status.
 int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
   Master master(host, clock, options.node_id);
   const TourResult result = run_tour(clock, master, view);
   print_summary(result, clock.node().counters(), view);
+  print_lost_frames(host, view);
   if (!result.failed.empty() && !host.bus_fault().empty()) {
     view.finding(false, host.bus_fault());
   }
@@ -176,6 +184,7 @@ int serve(Host& host, Clock& clock, const HeartbeatWatch& heartbeats, View& view
   }
   view.line("\nSummary");
   print_counters(clock.node().counters(), view);
+  print_lost_frames(host, view);
   view.note("", text("%u heartbeats, greatest lateness %u us", heartbeats.number(), heartbeats.greatest_lateness()));
   return exit_ok;
 }
