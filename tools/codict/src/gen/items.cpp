@@ -570,24 +570,24 @@ class Items {
   void set_group(Item& item, const Object& object, const Entry& entry) {
     const bool is_memory = item.storage == Storage::variable || item.storage == Storage::string ||
                            item.storage == Storage::domain || item.storage == Storage::consumer;
-    const Field<std::string>& named =
-        entry.node->storage_group.is_given ? entry.node->storage_group : object.node->storage_group;
-    if (!is_memory || !is_storage_group(named.value) || item.access == Access::constant) {
+    const std::string_view own = named_group(entry.node);
+    const std::string name(own.empty() ? named_group(object.node) : own);
+    if (!is_memory || !is_storage_group(name) || item.access == Access::constant) {
       return;
     }
-    const auto option = options_.store.find(named.value);
+    const auto option = options_.store.find(name);
     if (option != options_.store.end() && option->second == 0) {
-      plan_.unstored.insert(named.value);
+      plan_.unstored.insert(name);
       return;
     }
     for (std::size_t n = 1; n < plan_.groups.size(); ++n) {
-      item.group = plan_.groups[n].name == named.value ? n : item.group;
+      item.group = plan_.groups[n].name == name ? n : item.group;
     }
     if (item.group == 0) {
       item.group = plan_.groups.size();
       Group group;
-      group.name = named.value;
-      group.id = identifier(named.value);
+      group.name = name;
+      group.id = identifier(name);
       plan_.groups.push_back(std::move(group));
     }
   }

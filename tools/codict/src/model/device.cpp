@@ -43,6 +43,11 @@ std::string_view text_in(const std::vector<Label>& labels, std::string_view lang
   return labels.empty() ? std::string_view() : std::string_view(labels.front().text.text);
 }
 
+std::string_view named_group(const NodeProperties& node) {
+  const std::string& name = node.storage_group.value;
+  return equal_ignoring_case(name, "RAM") ? std::string_view() : std::string_view(name);
+}
+
 std::string_view name_of(Format format) {
   constexpr std::array<std::string_view, 10> names = {"EDS",     "DCF", "XDD 1.0", "XDD 1.1",         "XDC 1.0",
                                                       "XDC 1.1", "XPD", "NXDD",    "CANopenNode XML", "XML"};
