@@ -51,7 +51,13 @@ TEST_CASE("EDS: a number must fit its data type") {
   CHECK(meaning(eds.value(0x2000)) == "malformed");
   CHECK(meaning(eds.value(0x2001)) == "malformed");
   CHECK(meaning(eds.value(0x2002)) == "malformed");
-  CHECK(eds.found() == "31:14 od-value-range\n38:14 od-value-range\n45:14 od-value-range\n");
+  CHECK(meaning(eds.value(0x2003)) == "malformed");
+  CHECK(meaning(eds.at(0x2004).high_limit) == "malformed");
+  CHECK(eds.found() ==
+        "33:14 od-value-range\n40:14 od-value-range\n47:14 od-value-range\n54:14 od-value-range\n"
+        "63:11 od-value-range\n");
+  CHECK(eds.findings.all()[3].text == "'40000' does not fit INTEGER16 (-32768 to 32767)");
+  CHECK(eds.findings.all()[3].hint == "write 0x9C40 for the bit pattern of -25536, or correct the value or data type");
 }
 
 TEST_CASE("EDS: a negative number may be written as a bit pattern of the width of its type") {
@@ -118,6 +124,7 @@ TEST_CASE("limits and values are compared by their meaning") {
   CHECK(meaning(eds.at(0x2002).low_limit) == "-32768");
   CHECK(eds.found() ==
         "31:10 od-limit-order\n32:11 od-value-bit-pattern\n39:14 od-limit\n49:10 od-value-bit-pattern\n");
+  CHECK(eds.findings.all()[0].text == "LowLimit 0x7FFFFFFF is above HighLimit 0x80000000");
 }
 
 TEST_CASE("EDS: a type defined by the device is looked up in its object") {
