@@ -127,6 +127,19 @@ TEST_CASE("limits and values are compared by their meaning") {
   CHECK(eds.findings.all()[0].text == "LowLimit 0x7FFFFFFF is above HighLimit 0x80000000");
 }
 
+TEST_CASE("EDS: a range type of CANFestival gives its base type and limits to objects") {
+  const Reading eds("range_type.eds");
+  const lexican::codict::DataType& type = data_type_of(eds.device, 0xB2);
+  CHECK(type.kind == lexican::codict::TypeKind::unsigned_integer);
+  CHECK(type.bits == 16);
+  CHECK(meaning(eds.at(0x2040).low_limit) == "1");
+  CHECK(meaning(eds.at(0x2040).high_limit) == "500");
+  CHECK(meaning(eds.at(0x2041).low_limit) == "10");
+  CHECK(eds.found() ==
+        "24:2 eds-section-zeros\n29:2 eds-section-zeros\n37:2 eds-section-zeros\n45:2 eds-section-zeros\n"
+        "53:2 eds-section-zeros\n69:10 eds-type-own\n77:10 eds-type-own\n79:14 od-limit\n");
+}
+
 TEST_CASE("EDS: a type defined by the device is looked up in its object") {
   const Reading eds("type_own.eds");
   CHECK(eds.at(0x2000).data_type.value == 0x40);

@@ -61,7 +61,7 @@ class Items {
     const auto enabled = std::count_if(object.subs.begin(), object.subs.end(),
                                        [](const Sub& sub) { return !sub.node->disabled->value; });
     const std::size_t implied = object.subs.empty() || object.find(0) != nullptr ? 0 : 1;
-    const bool has_entry = !object.node->disabled->value && object.index >= first_variable;
+    const bool has_entry = !object.node->disabled->value && !is_type(object);
     number_ += !has_entry ? 0 : has_subs ? static_cast<std::size_t>(enabled) + implied : 1;
   }
 
@@ -72,7 +72,7 @@ class Items {
       findings_.add(rules::left_out, object.span, "disabled object has no entry", "remove CO_disabled");
       return;
     }
-    if (object.index < first_variable) {
+    if (is_type(object)) {
       findings_.add(rules::left_out, object.span, "type definition has no entry", "ignore the note");
       return;
     }
@@ -87,6 +87,8 @@ class Items {
   }
 
  private:
+  static bool is_type(const Object& object) { return object.index < first_variable || is_range_type(object); }
+
   void add_subs(const Object& object) {
     if (object.subs.empty()) {
       findings_.add(rules::no_subs, object.span, "object without sub-objects has no entry", "describe its sub-objects");

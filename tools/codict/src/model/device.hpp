@@ -435,8 +435,12 @@ ListKind list_of(std::uint16_t index);
 /// of its type are allowed.
 const std::vector<AllowedValue>& allowed_values_of(const Device& device, const Entry& entry);
 
-/// Returns width and form of a data type of this device: a type of CiA 301, the type that a DEFTYPE object names, kind
-/// structure for a DEFSTRUCT object, else kind unknown.
+/// Returns true for a type of CANFestival that restricts the range of another one: a RECORD of 00A0h to 0FFFh with the
+/// code of that type in sub-index 1, the lowest value in 2 and the highest in 3.
+bool is_range_type(const Object& object);
+
+/// Returns width and form of a data type of this device: a type of CiA 301, the type that a DEFTYPE object or a range
+/// type names, kind structure for a DEFSTRUCT object, else kind unknown.
 const DataType& data_type_of(const Device& device, std::uint16_t code);
 
 }  // namespace lexican::codict
