@@ -584,6 +584,10 @@ TEST_CASE("codict set: a value with errors is not written without --force") {
                        "    fix: correct the value, or use a larger data type\n" +
                        "codict: new errors, no file was written; --force writes it nevertheless\n");
   CHECK(bytes_of(path) == before);
+  const Ran pattern = run("set '" + path + "' 0x2000 type=0x0002 default=255");
+  CHECK(pattern.status == 1);
+  CHECK(has(pattern.err, "'255' does not fit INTEGER8 (-128 to 127)"));
+  CHECK(bytes_of(path) == before);
   CHECK(run("set --force '" + path + "' 0x2000 default=256").status == 0);
   CHECK(bytes_of(path) != before);
 }

@@ -192,6 +192,15 @@ TEST_CASE("diff: properties are compared, those of CANopenNode and unknown ones"
   CHECK(changed("Own", "kept", "changed") == "text property Own");
 }
 
+TEST_CASE("diff: storage group RAM equals none") {
+  const std::string original = test::bytes_of_fixture("device10.xdd");
+  const std::string group = "<property name=\"CO_storageGroup\" value=\"PERSIST_COMM\"/>";
+  REQUIRE(original.find(group) != std::string::npos);
+  const test::XmlReading ram(replaced(original, group, "<property name=\"CO_storageGroup\" value=\"RAM\"/>"));
+  const test::XmlReading none(replaced(original, group, ""));
+  CHECK(compare(ram.device, none.device).empty());
+}
+
 TEST_CASE("diff: the values of an enumeration are compared for each object of its type") {
   const std::string type =
       "<enum name=\"Mode\" uniqueID=\"T_Mode\"><enumValue value=\"1\"><label lang=\"en\">on</label></enumValue>"

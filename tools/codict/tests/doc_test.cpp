@@ -187,6 +187,18 @@ TEST_CASE("doc: an object has its type, access, mapping, default and range") {
   CHECK(speed.range == "-10 … 10");
 }
 
+TEST_CASE("doc: an object has its storage group, a sub-object only one of its own") {
+  const std::string group = "\n;StorageLocation=";
+  const Device device = device_of("[2000]\nParameterName=a\nObjectType=9" + group + "PERSIST_COMM\n[2000sub1]" + group +
+                                  "RAM\n[2000sub2]" + group + "PERSIST_APP\n[2001]" + group + "RAM\n");
+  const Contents contents = contents_of(device, {});
+  const ObjectItem& first = contents.chapters[0].objects[0];
+  CHECK(first.object.group == "PERSIST_COMM");
+  CHECK(first.subs.at(0).group == "");
+  CHECK(first.subs.at(1).group == "PERSIST_APP");
+  CHECK(contents.chapters[0].objects[1].object.group == "");
+}
+
 TEST_CASE("doc: an enumeration lists its values with names, a string its capacity") {
   const test::XmlReading xdd = test::fixture_xml("enumeration.xdd");
   const std::string text = markdown(xdd.device, for_node(1));

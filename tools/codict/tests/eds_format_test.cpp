@@ -67,6 +67,11 @@ std::size_t check_all_in(const std::string& directory) {
 
 }  // namespace
 
+TEST_CASE("fmt: an index is written without 0x and h") {
+  CHECK(test::has(formatted("[0x2040]\nParameterName=a\n"), "[2040]\n"));
+  CHECK(test::has(formatted("[2040hsub1]\nParameterName=a\n"), "[2040sub1]\n"));
+}
+
 TEST_CASE("EDS normal form: each fixture describes the same device without loss, and the form is stable") {
   CHECK(check_all_in(test::fixture("")) > 50);
 }

@@ -19,6 +19,18 @@ TEST_CASE("EDS: the section name of an object is case-insensitive, with or witho
         "24:2 eds-section-form\n29:2 eds-section-form\n36:2 eds-section-zeros\n42:2 eds-section-zeros\n");
 }
 
+TEST_CASE("EDS: an index with 0x or h, or of letters only, is read") {
+  const Reading eds("section_mark.eds");
+  CHECK(eds.at(0x2040).name.text == "Prefix");
+  CHECK(eds.at(0x2041, 1).name.text == "First");
+  CHECK(eds.device.find(0x0FFF)->object_code.value == ObjectCode::deftype);
+  CHECK(eds.device.find(0x0BAC) == nullptr);
+  CHECK(eds.found() ==
+        "25:2 eds-section-mark\n31:2 eds-section-mark\n36:2 eds-section-mark\n43:2 eds-section-mark\n"
+        "49:2 eds-section-zeros\n55:2 eds-section-unknown\n");
+  CHECK(eds.findings.all().at(3).hint == "write [2041sub1]");
+}
+
 TEST_CASE("EDS: text after a section name is ignored") {
   const Reading eds("section_tail.eds");
   CHECK(eds.at(0x2000).name.text == "Speed");

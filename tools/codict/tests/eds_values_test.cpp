@@ -51,7 +51,13 @@ TEST_CASE("EDS: a number must fit its data type") {
   CHECK(meaning(eds.value(0x2000)) == "malformed");
   CHECK(meaning(eds.value(0x2001)) == "malformed");
   CHECK(meaning(eds.value(0x2002)) == "malformed");
-  CHECK(eds.found() == "31:14 od-value-range\n38:14 od-value-range\n45:14 od-value-range\n");
+  CHECK(meaning(eds.value(0x2003)) == "malformed");
+  CHECK(meaning(eds.at(0x2004).high_limit) == "malformed");
+  CHECK(eds.found() ==
+        "33:14 od-value-range\n40:14 od-value-range\n47:14 od-value-range\n54:14 od-value-range\n"
+        "63:11 od-value-range\n");
+  CHECK(eds.findings.all()[3].text == "'40000' does not fit INTEGER16 (-32768 to 32767)");
+  CHECK(eds.findings.all()[3].hint == "write 0x9C40 for the bit pattern of -25536, or correct the value or data type");
 }
 
 TEST_CASE("EDS: a negative number may be written as a bit pattern of the width of its type") {
@@ -118,6 +124,20 @@ TEST_CASE("limits and values are compared by their meaning") {
   CHECK(meaning(eds.at(0x2002).low_limit) == "-32768");
   CHECK(eds.found() ==
         "31:10 od-limit-order\n32:11 od-value-bit-pattern\n39:14 od-limit\n49:10 od-value-bit-pattern\n");
+  CHECK(eds.findings.all()[0].text == "LowLimit 0x7FFFFFFF is above HighLimit 0x80000000");
+}
+
+TEST_CASE("EDS: a range type of CANFestival gives its base type and limits to objects") {
+  const Reading eds("range_type.eds");
+  const lexican::codict::DataType& type = data_type_of(eds.device, 0xB2);
+  CHECK(type.kind == lexican::codict::TypeKind::unsigned_integer);
+  CHECK(type.bits == 16);
+  CHECK(meaning(eds.at(0x2040).low_limit) == "1");
+  CHECK(meaning(eds.at(0x2040).high_limit) == "500");
+  CHECK(meaning(eds.at(0x2041).low_limit) == "10");
+  CHECK(eds.found() ==
+        "24:2 eds-section-zeros\n29:2 eds-section-zeros\n37:2 eds-section-zeros\n45:2 eds-section-zeros\n"
+        "53:2 eds-section-zeros\n69:10 eds-type-own\n77:10 eds-type-own\n79:14 od-limit\n");
 }
 
 TEST_CASE("EDS: a type defined by the device is looked up in its object") {

@@ -63,6 +63,14 @@ std::string eds_of(const Generated& generated) {
 
 }  // namespace
 
+TEST_CASE("gen: an object of a range type has its base type and limits; the type has no entry") {
+  const test::Generated generated = test::generate(test::fixture_text("range_type.eds"));
+  CHECK(generated.has("uint16_t od_2040_0"));
+  CHECK(generated.has("limits"));
+  CHECK_FALSE(generated.has("SMALL_00B2"));
+  CHECK(generated.notes.find("gen-left-out") != std::string::npos);
+}
+
 TEST_CASE("gen: 1002h is a variable that the stack writes whatever its access and default value") {
   for (const char* const access : {"ro", "const"}) {
     const Generated generated = generate(variable("1002", 7, access, "PDOMapping=1"));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "generating.hpp"
+#include "xdd_reading.hpp"
 
 using namespace lexican::codict;
 
@@ -141,6 +142,30 @@ TEST_CASE("gen: 1011h restores a group by the sub-index that names it, else by t
   CHECK(saves(by_name, "1010_5", "persist_app"));
   const Generated missing = generate(store + stores("1011", {{2, "Restore communication parameters"}}) + objects);
   CHECK(missing.found.find("gen-restore\n") != std::string::npos);
+}
+
+TEST_CASE("gen: the group of an object is that of its sub-objects, unless these name another one than RAM") {
+  const Generated eds = generate(test::fixture_text("gen/storage.eds"));
+  CHECK(eds.found == "");
+  CHECK(eds.has("(CO_DATA)(&small_persist_comm.od_1018_4)"));
+  CHECK(eds.has("(CO_DATA)(&small_persist_app.od_2001_1)"));
+  CHECK(eds.has("(CO_DATA)(&small_persist_comm.od_2001_2)"));
+  CHECK_FALSE(eds.has("small_persist_app.od_2001_3"));
+  CHECK(eds.has("(CO_DATA)(&small_ram.od_2002_1)"));
+  CHECK(eds.has("(CO_DATA)(&small_persist_app.od_2002_2)"));
+}
+
+TEST_CASE("gen: EDS and XDD of CANopenEditor give the same storage groups") {
+  const Generated eds = generate(test::fixture_text("gen/storage.eds"));
+  const test::XmlReading xdd(test::fixture_text("gen/storage.xdd"));
+  gen::Options options;
+  options.name = "small";
+  options.source = "small.eds";
+  Findings findings;
+  const gen::Output output = gen::generate(xdd.device, options, findings);
+  REQUIRE(output.files.size() == 2);
+  CHECK(output.files[0].bytes == eds.header());
+  CHECK(output.files[1].bytes == eds.source());
 }
 
 TEST_CASE("gen: RAM, ROM and constants are not storage groups") {

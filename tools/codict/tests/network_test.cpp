@@ -398,6 +398,8 @@ TEST_CASE("network: objects missing in a description cannot be configured") {
   CHECK(planned(yaml + "  sdo: [{index: 0x2000, value: 1}]\n", variable(0x2000, 6, "0", "ro")).text() ==
         "net-object: a: 2000h:0 (sdo) is ro: it cannot be configured\n");
   CHECK(planned(yaml + "  sdo: [{index: 0x2000, value: 65536}]\n", variable(0x2000, 6, "0")).text() != "");
+  CHECK(test::has(planned(yaml + "  sdo: [{index: 0x2000, value: 255}]\n", variable(0x2000, 2, "0")).text(),
+                  "'255' does not fit INTEGER8 (-128 to 127)"));
   CHECK(planned(yaml + "  tpdo: {1: }\n", "").text() ==
         "net-object: a has no tpdo 1: there is no 1800h in the description\n");
   const std::string tpdo = pdo(0x1800, "0x181", "255", 4);

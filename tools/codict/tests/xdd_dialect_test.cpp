@@ -69,6 +69,16 @@ TEST_CASE("_project.xml of CANopenNode: memory types and empty elements of an AR
   CHECK(reading.device.find(0x1003)->others.at(0).text.text == "CO_ODF_1003");
 }
 
+TEST_CASE("XDD: the storage group in an attribute of older CANopenEditors is read, also with a parameter") {
+  const std::string objects =
+      "<CANopenObject index=\"2000\" name=\"a\" objectType=\"7\" edseditor_extenstion_storagelocation=\"EEPROM\"/>"
+      "<CANopenObject index=\"2001\" name=\"b\" objectType=\"7\" uniqueIDRef=\"P\" "
+      "edseditor_extenstion_storagelocation=\"EEPROM\"/>";
+  const XmlReading reading(test::xdd_with(objects, "<parameter uniqueID=\"P\"><USINT/></parameter>"));
+  CHECK(reading.at(0x2000).node->storage_group.value == "EEPROM");
+  CHECK(reading.at(0x2001).node->storage_group.value == "EEPROM");
+}
+
 TEST_CASE(".nxdd: several devices in one file are read") {
   const XmlReading reading(test::bytes_of_fixture("several.nxdd"), "several.nxdd");
   REQUIRE(reading.description.devices.size() == 2);

@@ -216,7 +216,9 @@ void compare_words(const Entry& before, const Entry& after, const Recorder& reco
 }
 
 void compare_properties(const NodeProperties& before, const NodeProperties& after, const Recorder& recorder) {
-  recorder.field(Kind::compatible, "storage group", before.storage_group, after.storage_group);
+  if (named_group(before) != named_group(after)) {
+    recorder.add(Kind::compatible, "storage group", before.storage_group, after.storage_group);
+  }
   recorder.field(Kind::compatible, "disabled", *before.disabled, *after.disabled);
   recorder.text(Kind::compatible, "count label", *before.count_label, *after.count_label);
   recorder.field(Kind::compatible, "SRDO access", *before.srdo, *after.srdo);

@@ -101,7 +101,7 @@ void describe(const Device& device, const Entry& entry, const Options& options, 
   item.value = entry.actual_value->text;
   item.range = range_of(entry);
   item.unit = unit_of(entry, options);
-  item.group = entry.node->storage_group.text;
+  item.group = named_group(entry.node);
   item.allowed = allowed_values(device, entry, options);
   item.words = words_of(entry, options);
 }
@@ -128,7 +128,7 @@ ObjectItem item_of(const Device& device, const Object& object, const Options& op
   if (result.has_subs) {
     result.object.name = name_in(object, options);
     result.object.type = std::string(name_of(object.object_code.value));
-    result.object.group = object.node->storage_group.text;
+    result.object.group = named_group(object.node);
     result.object.words = words_of(object, options);
   } else {
     describe(device, object, options, result.object);

@@ -40,17 +40,32 @@ constexpr std::array<Suffix, 4> suffixes = {{{"Name", SectionKind::names},
 bool is_hex(char c) { return is_digit(c) || (to_lower(c) >= 'a' && to_lower(c) <= 'f'); }
 bool is_small(char c) { return c >= 'a' && c <= 'z'; }
 
+constexpr std::string_view sub_word = "sub";
+
+bool begins_with(std::string_view text, std::string_view word) {
+  return equal_ignoring_case(text.substr(0, word.size()), word);
+}
+
 // Removes and returns the index at the beginning: at most four digits, because hexadecimal letters may follow it
-// (1A00Denotation). An index of fewer digits must begin with 0 to 9.
+// (1A00Denotation). An index of two or three digits that begins with a letter (A0) is that of an object or sub-object.
 std::string_view take_index(std::string_view& text) {
   const std::string_view start = text.substr(0, 4);
   const auto end = std::find_if_not(start.begin(), start.end(), is_hex);
   const std::string_view digits = start.substr(0, static_cast<std::size_t>(end - start.begin()));
-  if (digits.size() < 4 && (digits.empty() || !is_digit(digits.front()))) {
+  const std::string_view rest = text.substr(digits.size());
+  const bool is_short = digits.size() < 4 && (digits.empty() || !is_digit(digits.front()));
+  if (is_short && (digits.size() < 2 || !(rest.empty() || begins_with(rest, sub_word)))) {
     return {};
   }
-  text.remove_prefix(digits.size());
+  text = rest;
   return digits;
+}
+
+// Removes 0x before an index, or h behind one, which CiA 306 does not allow. Returns false if there is none.
+bool take_mark(std::string_view& text, std::string_view mark) {
+  const bool is_there = begins_with(text, mark);
+  text.remove_prefix(is_there ? mark.size() : 0);
+  return is_there;
 }
 
 bool to_number(std::string_view digits, std::uint64_t largest, std::uint64_t& number) {
@@ -59,11 +74,9 @@ bool to_number(std::string_view digits, std::uint64_t largest, std::uint64_t& nu
 
 // Reads "sub" and a sub-index behind an index. Returns false for any other text.
 bool read_sub_index(std::string_view suffix, SectionName& name) {
-  constexpr std::string_view word = "sub";
-  std::string_view digits = suffix.substr(std::min(word.size(), suffix.size()));
+  const std::string_view digits = suffix.substr(std::min(sub_word.size(), suffix.size()));
   std::uint64_t sub_index = 0;
-  if (!equal_ignoring_case(suffix.substr(0, word.size()), word) ||
-      !to_number(digits, std::numeric_limits<std::uint64_t>::max(), sub_index)) {
+  if (!begins_with(suffix, sub_word) || !to_number(digits, std::numeric_limits<std::uint64_t>::max(), sub_index)) {
     return false;
   }
   if (sub_index > 0xFF) {
@@ -73,8 +86,8 @@ bool read_sub_index(std::string_view suffix, SectionName& name) {
   name.sub_index = static_cast<std::uint8_t>(sub_index);
   name.is_sub = true;
   name.has_odd_zeros = name.has_odd_zeros || (digits.size() > 1 && digits.front() == '0');
-  name.has_odd_case =
-      name.has_odd_case || suffix.substr(0, word.size()) != word || std::any_of(digits.begin(), digits.end(), is_small);
+  name.has_odd_case = name.has_odd_case || suffix.substr(0, sub_word.size()) != sub_word ||
+                      std::any_of(digits.begin(), digits.end(), is_small);
   return true;
 }
 
@@ -88,12 +101,14 @@ SectionKind list_kind(std::string_view suffix) {
 
 // Reads an index and the text behind it. Leaves name.kind unchanged if the text has another form.
 void read_indexed(std::string_view text, SectionKind alone, SectionKind with_sub, SectionName& name) {
+  const bool has_prefix = take_mark(text, "0x");
   const std::string_view digits = take_index(text);
   std::uint64_t index = 0;
   if (!to_number(digits, 0xFFFF, index)) {
     return;
   }
   SectionName read = name;
+  read.has_mark = take_mark(text, "h") || has_prefix;
   read.index = static_cast<std::uint16_t>(index);
   read.has_odd_zeros = digits.size() != 4;
   read.has_odd_case = std::any_of(digits.begin(), digits.end(), is_small);

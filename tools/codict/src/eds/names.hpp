@@ -31,6 +31,7 @@ struct SectionName {
   std::uint16_t module = 0;
   std::string_view word;       ///< for header and module: the word as CiA 306 spells it
   bool has_odd_zeros = false;  ///< the index has other than four digits, or the sub-index has leading zeros
+  bool has_mark = false;       ///< 0x before the index, or h behind it
   bool has_odd_case = false;   ///< lower-case digits, or upper-case letters in "sub"
 };
 

@@ -313,12 +313,34 @@ std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Op
   return objects;
 }
 
+namespace {
+
+// Uses the range of a range type as limits of an entry that has none. Faults of its values are reported at the type.
+void take_limits_of_type(Entry& entry, const DataType& type, const Device& device) {
+  const Object* const own = type.code != entry.data_type.value ? device.find(entry.data_type.value) : nullptr;
+  if (own == nullptr || !is_range_type(*own) || has_sub_objects(entry.object_code.value)) {
+    return;
+  }
+  Findings reported;
+  const auto take = [&](Rare<Value>& limit, std::uint8_t sub_index) {
+    if (limit->is_empty()) {
+      limit = own->find(sub_index)->default_value;
+      interpret(limit, type, reported);
+    }
+  };
+  take(entry.low_limit, 2);
+  take(entry.high_limit, 3);
+}
+
+}  // namespace
+
 void interpret_values(Entry& entry, const Reader& reader) {
   const DataType& type = type_of(entry, reader);
   interpret(entry.default_value, type, reader.findings);
   for (Rare<Value>* value : {&entry.actual_value, &entry.low_limit, &entry.high_limit}) {
     interpret(*value, type, reader.findings);
   }
+  take_limits_of_type(entry, type, reader.device);
 }
 
 void interpret_values(Object& object, const Reader& reader) {

@@ -32,6 +32,12 @@ void report_form(const NamedSection& named, const Reader& reader) {
                         fmt::format("missing or extra leading zeros in [{}]", name),
                         "write four digits for an index, none too many for a sub-index");
   }
+  if (named.name.has_mark) {
+    const std::string index = fmt::format("{:04X}", named.name.index);
+    reader.findings.add(
+        rules::section_mark, named.section->name, fmt::format("0x or h in [{}], read as index {}h", name, index),
+        fmt::format("write [{}{}]", index, named.name.is_sub ? fmt::format("sub{:X}", named.name.sub_index) : ""));
+  }
   if (named.name.has_odd_case) {
     reader.findings.add(rules::section_form, named.section->name, fmt::format("unusual capitals in [{}]", name),
                         "write digits in capitals, sub in small letters");

@@ -24,6 +24,7 @@ const Rule encoding_guess{"eds-encoding-guess", Severity::warning, "characters i
 const Rule encoding_mark{"eds-encoding-mark", Severity::note, "byte order mark at the beginning of the file"};
 const Rule section_unknown{"eds-section-unknown", Severity::note, "section unknown to CiA 306"};
 const Rule section_form{"eds-section-form", Severity::note, "section name with unusual capitals"};
+const Rule section_mark{"eds-section-mark", Severity::warning, "section name with 0x or h"};
 const Rule section_zeros{"eds-section-zeros", Severity::warning, "section name with missing or extra leading zeros"};
 const Rule section_missing{"eds-section-missing", Severity::warning,
                            "mandatory section FileInfo, DeviceInfo or MandatoryObjects is missing"};
@@ -65,30 +66,23 @@ const Rule compact_pdo{"eds-compact-pdo", Severity::note, "PDOs without sections
 
 const std::vector<const Rule*>& all_rules() {
   using namespace rules;
-  static const std::vector<const Rule*> all = {&syntax_section,      &syntax_section_tail,
-                                               &syntax_indent,       &syntax_comment,
-                                               &syntax_line,         &syntax_outside,
-                                               &syntax_length,       &syntax_line_end,
-                                               &syntax_control,      &syntax_key,
-                                               &duplicate_section,   &duplicate_key,
-                                               &encoding_utf8,       &encoding_guess,
-                                               &encoding_mark,       &section_unknown,
-                                               &section_form,        &section_zeros,
-                                               &section_missing,     &section_orphan,
-                                               &sub_index,           &key_unknown,
-                                               &key_missing,         &key_misplaced,
-                                               &key_length,          &dialect,
-                                               &hidden_key,          &object_type,
-                                               &object_type_missing, &access_unknown,
-                                               &access_case,         &type_own,
-                                               &type_unknown,        &file_name,
-                                               &file_date,           &file_time,
-                                               &file_version,        &commissioning_spelling,
-                                               &list_count,          &list_numbers,
-                                               &list_entry,          &list_unlisted,
-                                               &list_no_section,     &list_twice,
-                                               &list_wrong,          &compact_entry,
-                                               &compact_limit,       &compact_pdo};
+  static const std::vector<const Rule*> all = {&syntax_section,  &syntax_section_tail, &syntax_indent,
+                                               &syntax_comment,  &syntax_line,         &syntax_outside,
+                                               &syntax_length,   &syntax_line_end,     &syntax_control,
+                                               &syntax_key,      &duplicate_section,   &duplicate_key,
+                                               &encoding_utf8,   &encoding_guess,      &encoding_mark,
+                                               &section_unknown, &section_form,        &section_zeros,
+                                               &section_mark,    &section_missing,     &section_orphan,
+                                               &sub_index,       &key_unknown,         &key_missing,
+                                               &key_misplaced,   &key_length,          &dialect,
+                                               &hidden_key,      &object_type,         &object_type_missing,
+                                               &access_unknown,  &access_case,         &type_own,
+                                               &type_unknown,    &file_name,           &file_date,
+                                               &file_time,       &file_version,        &commissioning_spelling,
+                                               &list_count,      &list_numbers,        &list_entry,
+                                               &list_unlisted,   &list_no_section,     &list_twice,
+                                               &list_wrong,      &compact_entry,       &compact_limit,
+                                               &compact_pdo};
   return all;
 }
 

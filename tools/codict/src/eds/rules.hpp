@@ -30,6 +30,7 @@ extern const Rule encoding_mark;
 extern const Rule section_unknown;
 extern const Rule section_form;
 extern const Rule section_zeros;
+extern const Rule section_mark;
 extern const Rule section_missing;
 extern const Rule section_orphan;
 extern const Rule sub_index;

@@ -61,7 +61,7 @@ class Items {
     const auto enabled = std::count_if(object.subs.begin(), object.subs.end(),
                                        [](const Sub& sub) { return !sub.node->disabled->value; });
     const std::size_t implied = object.subs.empty() || object.find(0) != nullptr ? 0 : 1;
-    const bool has_entry = !object.node->disabled->value && object.index >= first_variable;
+    const bool has_entry = !object.node->disabled->value && !is_type(object);
     number_ += !has_entry ? 0 : has_subs ? static_cast<std::size_t>(enabled) + implied : 1;
   }
 
@@ -72,7 +72,7 @@ class Items {
       findings_.add(rules::left_out, object.span, "disabled object has no entry", "remove CO_disabled");
       return;
     }
-    if (object.index < first_variable) {
+    if (is_type(object)) {
       findings_.add(rules::left_out, object.span, "type definition has no entry", "ignore the note");
       return;
     }
@@ -87,6 +87,8 @@ class Items {
   }
 
  private:
+  static bool is_type(const Object& object) { return object.index < first_variable || is_range_type(object); }
+
   void add_subs(const Object& object) {
     if (object.subs.empty()) {
       findings_.add(rules::no_subs, object.span, "object without sub-objects has no entry", "describe its sub-objects");
@@ -570,24 +572,24 @@ class Items {
   void set_group(Item& item, const Object& object, const Entry& entry) {
     const bool is_memory = item.storage == Storage::variable || item.storage == Storage::string ||
                            item.storage == Storage::domain || item.storage == Storage::consumer;
-    const Field<std::string>& named =
-        entry.node->storage_group.is_given ? entry.node->storage_group : object.node->storage_group;
-    if (!is_memory || !is_storage_group(named.value) || item.access == Access::constant) {
+    const std::string_view own = named_group(entry.node);
+    const std::string name(own.empty() ? named_group(object.node) : own);
+    if (!is_memory || !is_storage_group(name) || item.access == Access::constant) {
       return;
     }
-    const auto option = options_.store.find(named.value);
+    const auto option = options_.store.find(name);
     if (option != options_.store.end() && option->second == 0) {
-      plan_.unstored.insert(named.value);
+      plan_.unstored.insert(name);
       return;
     }
     for (std::size_t n = 1; n < plan_.groups.size(); ++n) {
-      item.group = plan_.groups[n].name == named.value ? n : item.group;
+      item.group = plan_.groups[n].name == name ? n : item.group;
     }
     if (item.group == 0) {
       item.group = plan_.groups.size();
       Group group;
-      group.name = named.value;
-      group.id = identifier(named.value);
+      group.name = name;
+      group.id = identifier(name);
       plan_.groups.push_back(std::move(group));
     }
   }

@@ -43,6 +43,11 @@ std::string_view text_in(const std::vector<Label>& labels, std::string_view lang
   return labels.empty() ? std::string_view() : std::string_view(labels.front().text.text);
 }
 
+std::string_view named_group(const NodeProperties& node) {
+  const std::string& name = node.storage_group.value;
+  return equal_ignoring_case(name, "RAM") ? std::string_view() : std::string_view(name);
+}
+
 std::string_view name_of(Format format) {
   constexpr std::array<std::string_view, 10> names = {"EDS",     "DCF", "XDD 1.0", "XDD 1.1",         "XDC 1.0",
                                                       "XDC 1.1", "XPD", "NXDD",    "CANopenNode XML", "XML"};
@@ -108,11 +113,26 @@ const std::vector<AllowedValue>& allowed_values_of(const Device& device, const E
   return *values;
 }
 
+bool is_range_type(const Object& object) {
+  const Sub* const base = object.find(1);
+  const bool has_form = object.index >= 0xA0 && object.index < 0x1000 && object.subs.size() == 4 &&
+                        object.object_code.value == ObjectCode::record && base != nullptr &&
+                        object.find(2) != nullptr && object.find(3) != nullptr && base->default_value.is_integer();
+  if (!has_form || base->default_value.integer.is_negative || base->default_value.integer.magnitude > 0xFF) {
+    return false;
+  }
+  const TypeKind kind = data_type(static_cast<std::uint16_t>(base->default_value.integer.magnitude)).kind;
+  return is_integer(kind) || kind == TypeKind::real;
+}
+
 const DataType& data_type_of(const Device& device, std::uint16_t code) {
   const DataType& basic = data_type(code);
   const Object* own = basic.kind == TypeKind::unknown ? device.find(code) : nullptr;
   if (own == nullptr) {
     return basic;
+  }
+  if (is_range_type(*own)) {
+    return data_type(static_cast<std::uint16_t>(own->find(1)->default_value.integer.magnitude));
   }
   const bool is_structure = own->object_code.value == ObjectCode::defstruct || !own->subs.empty();
   return is_structure ? structure : data_type(own->data_type.value);

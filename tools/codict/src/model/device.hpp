@@ -137,6 +137,10 @@ struct NodeProperties {
   Rare<Field<bool>> flags_pdo;                   ///< CO_flagsPDO, of the older generation
 };
 
+/// Returns the storage group that an object or sub-object names; empty for RAM, which a sub-object of CANopenEditor
+/// names if it has no group of its own. The group of an object is that of its sub-objects without one.
+std::string_view named_group(const NodeProperties& node);
+
 /// A named text that an application adds to an object. [311: property]
 struct Property {
   std::string name;
@@ -431,8 +435,12 @@ ListKind list_of(std::uint16_t index);
 /// of its type are allowed.
 const std::vector<AllowedValue>& allowed_values_of(const Device& device, const Entry& entry);
 
-/// Returns width and form of a data type of this device: a type of CiA 301, the type that a DEFTYPE object names, kind
-/// structure for a DEFSTRUCT object, else kind unknown.
+/// Returns true for a type of CANFestival that restricts the range of another one: a RECORD of 00A0h to 0FFFh with the
+/// code of that type in sub-index 1, the lowest value in 2 and the highest in 3.
+bool is_range_type(const Object& object);
+
+/// Returns width and form of a data type of this device: a type of CiA 301, the type that a DEFTYPE object or a range
+/// type names, kind structure for a DEFSTRUCT object, else kind unknown.
 const DataType& data_type_of(const Device& device, std::uint16_t code);
 
 }  // namespace lexican::codict

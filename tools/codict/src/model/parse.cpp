@@ -111,15 +111,18 @@ std::string range_of(const DataType& type) {
                                                : fmt::format("0 to {}", all);
 }
 
-// Returns whether a number fits its type. Converts the bit pattern of a negative number to that number, with a note.
-bool fit(Integer& number, const DataType& type, const Value& value, Findings& findings) {
+// Returns whether a number fits its type. Converts the hexadecimal bit pattern of a negative number to that number,
+// with a note.
+bool fit(Integer& number, Base base, const DataType& type, const Value& value, Findings& findings) {
   const bool is_signed = type.kind == TypeKind::signed_integer;
   if (is_signed ? fits_signed(number, type.bits) : fits_unsigned(number, type.bits)) {
     return true;
   }
-  if (is_signed && fits_unsigned(number, type.bits)) {
-    number = sign_extended(number.magnitude, type.bits);
-    const std::string meaning = fmt::format("{}{}", number.is_negative ? "-" : "", number.magnitude);
+  const bool is_pattern = is_signed && fits_unsigned(number, type.bits);
+  const Integer extended = sign_extended(number.magnitude, type.bits);
+  const std::string meaning = fmt::format("-{}", extended.magnitude);
+  if (is_pattern && base == Base::hexadecimal) {
+    number = extended;
     findings.add(rules::value_bit_pattern, value.span,
                  fmt::format("{} is read as the bit pattern of {}", in_quotes(value.text), meaning),
                  "write " + meaning);
@@ -127,7 +130,9 @@ bool fit(Integer& number, const DataType& type, const Value& value, Findings& fi
   }
   findings.add(rules::value_range, value.span,
                fmt::format("{} does not fit {} ({})", in_quotes(value.text), type.name, range_of(type)),
-               "correct the value, or use a larger data type");
+               is_pattern ? fmt::format("write 0x{:X} for the bit pattern of {}, or correct the value or data type",
+                                        number.magnitude, meaning)
+                          : "correct the value, or use a larger data type");
   return false;
 }
 
@@ -145,7 +150,7 @@ void interpret_integer(Value& value, const DataType& type, Findings& findings) {
   }
   value.adds_node_id = formula.has_node_id;
   value.integer = formula.number.value;
-  if (fit(value.integer, type, value, findings)) {
+  if (fit(value.integer, formula.number.base, type, value, findings)) {
     value.kind = Value::Kind::integer;
   }
 }

@@ -21,7 +21,7 @@ struct Part : Entry {
   std::vector<pugi::xml_node> subs;
 };
 
-constexpr std::array<Slot<Part>, 18> part_slots = {{
+constexpr std::array<Slot<Part>, 19> part_slots = {{
     {"index", [](Part& p) -> Text& { return p.number; }},
     {"subIndex", [](Part& p) -> Text& { return p.number; }},
     {"name", [](Part& p) -> Text& { return p.name; }},
@@ -37,6 +37,7 @@ constexpr std::array<Slot<Part>, 18> part_slots = {{
     {"objFlags", [](Part& p) -> Text& { return p.flags.edit(); }},
     {"uniqueIDRef", [](Part& p) -> Text& { return p.parameter_id.edit(); }},
     {"subNumber", [](Part& p) -> Text& { return p.sub_number; }},
+    {"edseditor_extenstion_storagelocation", [](Part& p) -> Text& { return p.node.edit().storage_group; }},
     // Names in _project.xml of CANopenNode.
     {"memoryType", [](Part& p) -> Text& { return p.node.edit().storage_group; }},
     {"disabled", [](Part& p) -> Text& { return p.node.edit().disabled.edit(); }},
@@ -203,6 +204,9 @@ void merge(Entry& entry, Entry& own, const Reader& reader) {
   entry.pdo_mapping = std::move(own.pdo_mapping);
   entry.flags = std::move(own.flags);
   append(entry.others, own.others);
+  if (own.node->storage_group.is_given && !entry.node->storage_group.is_given) {
+    entry.node.edit().storage_group = std::move(own.node.edit().storage_group);
+  }
   const DataType& type = data_type(entry.type->code != 0 ? entry.type->code : entry.data_type.value);
   const auto choose_value = [&](Value& chosen, const Value& value, std::string_view attribute) {
     const bool is_asked = chosen.is_given && value.is_given && chosen.text != value.text;
