@@ -55,7 +55,11 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 /// For namespace and function scope. Entries with types of the application are checked only for the rules of all types.
 /// An object that constant mappings of an SRDO and of an ordinary PDO contain causes a warning
 /// (-Wdeprecated-declarations, omitted if this header is a system header).
-#define CO_OD_CHECK(od) static_assert(::co::dictionary::is_proved<od>(), "see Dictionary<...> above")
+#define CO_OD_CHECK(od) static_assert(::co::dictionary::is_proved<od, true>(), "see Dictionary<...> above")
+
+/// Like CO_OD_CHECK(), without what CiA 301 requires of a device: mandatory objects may be missing, and its objects may
+/// have another length.
+#define CO_OD_CHECK_PART(od) static_assert(::co::dictionary::is_proved<od, false>(), "see Dictionary<...> above")
 
 namespace co {
 
@@ -375,7 +379,7 @@ constexpr bool has_standard_width(std::uint32_t key, std::uint8_t width) {
 /// Checks all rules of the entry at \a position, except whether a PDO may map it. \a previous: key of the previous
 /// entry, 0 for the first. An entry with a type of the application is checked by check_entry() and check_unknown()
 /// only.
-template <const auto& Od>
+template <const auto& Od, bool Complete>
 constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
   const CO_OBJ& entry = Od[position];
   const Content data = content<Od>(position);
@@ -389,7 +393,7 @@ constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
   if (of_type != CO_DICT_OK) {
     return of_type;
   }
-  return has_standard_width(entry.Key, type.width) ? check_content(entry.Key, data) : CO_DICT_WRONG_PLACE;
+  return !Complete || has_standard_width(entry.Key, type.width) ? check_content(entry.Key, data) : CO_DICT_WRONG_PLACE;
 }
 
 /// Returns the position of an entry, or the length of the table.
@@ -535,17 +539,6 @@ constexpr Finding check_mappings() {
   return {CO_DICT_OK, 0};
 }
 
-/// Returns whether the table has objects of the communication profile.
-template <const auto& Od>
-constexpr bool has_communication() {
-  for (std::size_t n = 0; n < length(Od) && !rules::is_end(Od[n].Key); ++n) {
-    if (rules::index_of(Od[n].Key) >= 0x1000 && rules::index_of(Od[n].Key) < 0x2000) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Returns the first mandatory entry that the table does not have. [CiA 301, 7.5.1]
 template <const auto& Od>
 constexpr Finding check_mandatory() {
@@ -559,8 +552,8 @@ constexpr Finding check_mandatory() {
   return {CO_DICT_OK, 0};
 }
 
-/// Checks the complete table. Returns its first fault.
-template <const auto& Od>
+/// Checks the table. Returns its first fault. \a Complete: whether it is that of a device
+template <const auto& Od, bool Complete = true>
 constexpr Finding check() {
   std::uint32_t previous = 0;
   bool ended = false;
@@ -570,21 +563,21 @@ constexpr Finding check() {
       ended = true;
       continue;
     }
-    const CO_DICT_FAULT fault = ended ? CO_DICT_NOT_ASCENDING : check<Od>(previous, position);
+    const CO_DICT_FAULT fault = ended ? CO_DICT_NOT_ASCENDING : check<Od, Complete>(previous, position);
     if (fault != CO_DICT_OK) {
       return {fault, key};
     }
     previous = key;
   }
   const Finding finding = check_mappings<Od>();
-  return finding.fault != CO_DICT_OK || !has_communication<Od>() ? finding : check_mandatory<Od>();
+  return finding.fault != CO_DICT_OK || !Complete ? finding : check_mandatory<Od>();
 }
 
 /// Returns true, or causes a compile error that names the first fault of the table. Causes a warning if an SRDO and an
 /// ordinary PDO map the same object.
-template <const auto& Od>
+template <const auto& Od, bool Complete>
 constexpr bool is_proved() {
-  constexpr Finding finding = check<Od>();
+  constexpr Finding finding = check<Od, Complete>();
   constexpr std::uint32_t shared = find_shared<Od>();
   if constexpr (shared != 0) {
     (void)safety_object_in_pdo<IndexOf<rules::index_of(shared)>, SubOf<rules::sub_of(shared)>>();

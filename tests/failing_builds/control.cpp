@@ -53,7 +53,7 @@ CO_OD_CHECK(od);
 
 void scope() {
   static constexpr CO_OBJ inner[] = {{CO_KEY(0x2001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&byte)}};
-  CO_OD_CHECK(inner);
+  CO_OD_CHECK_PART(inner);
   static_cast<void>(inner);
 }
 

@@ -239,7 +239,7 @@ constexpr CO_OBJ clock_od[CLOCK_OD_NUM] = {
 };
 
 // Compile-time checks of the table.
-CO_OD_CHECK(clock_od);
+CO_OD_CHECK_PART(clock_od);  // mandatory objects and lengths: codict check
 // Layout of the storage groups.
 static_assert(offsetof(clock_settings_t, od_1020_1) == 0 && sizeof clock_settings.od_1020_1 == 4, "od_1020_1");
 static_assert(offsetof(clock_settings_t, od_1020_2) == 4 && sizeof clock_settings.od_1020_2 == 4, "od_1020_2");

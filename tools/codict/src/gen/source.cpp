@@ -616,7 +616,7 @@ class SourceText {
   void write_proofs() {
     out_.raw("\n// Compile-time checks of the table.\n");
     if (is_cpp()) {
-      out_.add("CO_OD_CHECK({}_od);", options_.name);
+      out_.add("CO_OD_CHECK_PART({}_od);  // mandatory objects and lengths: codict check", options_.name);
     } else {
       for (std::size_t n = 1; n < plan_.items.size(); ++n) {
         out_.add("{}({} < {}, \"ascending\");", proof(), macro_of(plan_.items[n - 1], options_),
