@@ -82,7 +82,7 @@ extern const CO_OBJ_TYPE COTReal64;  ///< functions of CO_TREAL64
 /// \}
 
 /// Type and Data of an entry for a variable whose size the compiler checks: "size of array is negative" if it is not
-/// that of the type. A variable that is too small would make the stack write to its neighbours.
+/// that of the type. If the variable is too small, the stack writes to the memory behind it.
 ///
 ///     {CO_KEY(0x2100, 0, CO_OBJ____PRW), CO_VAR(UNSIGNED16, Speed)},
 ///

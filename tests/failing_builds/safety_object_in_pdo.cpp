@@ -21,4 +21,4 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x2002, 0, CO_OBJ____PRW), CO_TUNSIGNED8, (CO_DATA)(&other)},
     CO_OBJ_DICT_ENDMARK,
 };
-CO_OD_CHECK(od);
+CO_OD_CHECK_PART(od);

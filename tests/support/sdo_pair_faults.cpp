@@ -27,8 +27,8 @@ Milliseconds longest_delay(const FaultsAtFrames& faults) {
 }
 
 // Returns the longest duration of a transfer. A client counts its time-out during a block upload in quarters; the first
-// quarter may begin before the last frame, so that the time-out is up to a quarter longer. If a segment is lost that is
-// a block of its own, the client waits as long as the server repeats its response, until the time-out of the server.
+// quarter may begin before the last frame, so that the time-out is up to a quarter longer. If a block of a single
+// segment is lost, the client waits as long as the server repeats its response, until the time-out of the server.
 Milliseconds limit_of(const FaultsAtFrames& faults, Milliseconds time_out) {
   const Milliseconds of_client = time_out + time_out / 4;
   const Milliseconds of_one = CO_SDO_BUF_SEG == 1 ? std::max(of_client, server_time_out) : of_client;

@@ -12,7 +12,7 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x2100, 1, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(&speed)},
     CO_OBJ_DICT_ENDMARK,
 };
-CO_OD_CHECK(od);
+CO_OD_CHECK_PART(od);
 
 }  // namespace
 

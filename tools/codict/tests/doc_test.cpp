@@ -187,7 +187,7 @@ TEST_CASE("doc: an object has its type, access, mapping, default and range") {
   CHECK(speed.range == "-10 … 10");
 }
 
-TEST_CASE("doc: an object has its storage group, a sub-object only one of its own") {
+TEST_CASE("doc: an object has its storage group, a sub-object only one that it names") {
   const std::string group = "\n;StorageLocation=";
   const Device device = device_of("[2000]\nParameterName=a\nObjectType=9" + group + "PERSIST_COMM\n[2000sub1]" + group +
                                   "RAM\n[2000sub2]" + group + "PERSIST_APP\n[2001]" + group + "RAM\n");

@@ -138,7 +138,7 @@ struct NodeProperties {
 };
 
 /// Returns the storage group that an object or sub-object names; empty for RAM, which a sub-object of CANopenEditor
-/// names if it has no group of its own. The group of an object is that of its sub-objects without one.
+/// names if it has no group. The group of an object is that of its sub-objects without one.
 std::string_view named_group(const NodeProperties& node);
 
 /// A named text that an application adds to an object. [311: property]
