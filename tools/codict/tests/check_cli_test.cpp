@@ -365,6 +365,17 @@ TEST_CASE("codict explain: prints one rule or all rules") {
   CHECK(Json::parse(explain("--json").out).at("rules").size() > 140);
 }
 
+TEST_CASE("codict check: only on a terminal the end of a check without findings is said") {
+  const std::string command =
+      std::string("'") + LEXICAN_CODICT_PROGRAM + "' check '" LEXICAN_SOURCE_DIR "/demo/clock/generated/clock.eds'";
+  const Ran piped = test::run_shell(command);
+  CHECK(piped.status == 0);
+  CHECK(piped.out + piped.err == "");
+  const Ran shown = test::run_shell("script --quiet --return --command \"" + command + "\" /dev/null </dev/null");
+  CHECK(shown.status == 0);
+  CHECK(shown.out == "codict: no findings\r\n");
+}
+
 TEST_CASE("codict check: findings beyond the limit are counted, hide no error and keep the exit status") {
   const Directory directory;
   std::string text = "[2000]\nParameterName=x\nObjectType=7\n";

@@ -177,6 +177,8 @@ void finish(const CheckOptions& options, Report& report, int status) {
                                               report.counts[Severity::note]);
              !text.empty()) {
     print_message(text);
+  } else if (status == clean && options.new_baseline.empty() && is_terminal()) {
+    print_message("no findings");
   }
 }
 
