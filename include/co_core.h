@@ -136,7 +136,7 @@ typedef struct CO_NODE_EXT_T {
   struct OD_T_* Od;  ///< index of the dictionary (co_od.h), or null: no object can be extended
 #endif
   const CO_CALLBACKS* Callbacks;  ///< functions that receive the node and User (co_callbacks.h), or null
-  uint32_t SdoBufLen;             ///< bytes at CO_NODE_SPEC.SdoBuf (CO_SDO_BUFFER()); 0: enough, not checked
+  uint32_t SdoBufLen;             ///< bytes at CO_NODE_SPEC.SdoBuf (CO_SDO_BUFFER()); 0: unknown, not checked
 } CO_NODE_EXT;
 
 /// A node. The application uses members as handles (&node.Dict, &node.Emcy, &node.Nmt, &node.Tmr, …), reads NodeId and
@@ -298,10 +298,11 @@ uint32_t CONodeGetErrKey(const CO_NODE* node);
 
 /// Like CONodeGetErr(), and writes name, object and meaning of the error to \a text, with the fault of the dictionary
 /// if there is one: "CO_ERR_TPDO_MAP_OBJ, object 1A00h:02: …"; "no error" for CO_ERR_NONE. Text beyond \a size bytes
-/// is cut off; it always ends with a NUL. Where USE_DICT_CHECK is 0, this call finds entries in the wrong order. Names
-/// and meanings take about 8 KB of flash, in a program that calls this function only.
-/// \retval CO_ERR_NONE       no error since the last call
-/// \retval CO_ERR_DICT_INIT  also if USE_DICT_CHECK is 0 and entries are in the wrong order
+/// is cut off; it always ends with a NUL. Names and meanings take about 8 KB of flash, only in a program that calls
+/// this function, COErrName(), COErrText() or those of co_dict.h. \retval CO_ERR_NONE       no error since the last
+/// call \retval CO_ERR_DICT_INIT  the dictionary is refused. With USE_DICT_CHECK 0: entries are in the wrong order;
+/// returned by
+///                           each call, and the node may run
 /// \retval CO_ERR_BAD_ARG    an argument is null, or \a size is 0
 CO_ERR CONodeGetErrText(CO_NODE* node, char* text, uint32_t size);
 

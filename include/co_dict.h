@@ -14,13 +14,13 @@
 extern "C" {
 #endif
 
-/// Faults of a dictionary: name, number, meaning. CO_OD_CHECK() (lexican/dictionary.hpp) rejects all of them at compile
-/// time. At run time only a fault that breaks the search or memory safety stops the node (CO_INVALID,
-/// CO_ERR_DICT_INIT). Any other fault affects its entry only: the node runs, its error is CO_ERR_OBJ_INIT, and
-/// CODictGetFault() returns the entry. With USE_DICT_CHECK 0 nothing is checked at run time, except that
-/// CODictGetFault() finds CO_DICT_NOT_ASCENDING. CO_DICT_DIRECT_ADDRESS, CO_DICT_DIRECT_CONST, CO_DICT_NOT_MAPPABLE,
-/// CO_DICT_MISSING, CO_DICT_MAP_TARGET and CO_DICT_MAP_LENGTH are detected at compile time only, and so is
-/// CO_DICT_WRONG_PLACE of objects without a type of their own, such as 1000h.
+/// Faults of a dictionary: name, number, meaning. CO_OD_CHECK() (lexican/dictionary.hpp) rejects all but
+/// CO_DICT_PARA_OVERLAP at compile time. At run time only a fault that breaks the search or memory safety stops the
+/// node (CO_INVALID, CO_ERR_DICT_INIT). Any other fault affects its entry only: the node runs, its error is
+/// CO_ERR_OBJ_INIT, and CODictGetFault() returns the entry. With USE_DICT_CHECK 0 nothing is checked at run time,
+/// except that CODictGetFault() finds CO_DICT_NOT_ASCENDING. CO_DICT_DIRECT_ADDRESS, CO_DICT_DIRECT_CONST,
+/// CO_DICT_NOT_MAPPABLE, CO_DICT_MISSING, CO_DICT_MAP_TARGET and CO_DICT_MAP_LENGTH are detected at compile time only,
+/// and so is CO_DICT_WRONG_PLACE of objects without a type of their own, such as 1000h.
 ///
 /// CO_DICT_NO_DATA: SDO transfers of the entry are aborted with 0800 0020h, API functions return an error, and a PDO
 /// that maps the entry does not exist; this also holds with USE_DICT_CHECK 0. CO_DICT_RESERVED_INDEX of a static data
@@ -32,7 +32,7 @@ extern "C" {
   X(CO_DICT_NO_DATA, 3, "Data is null, but the type needs the address of a variable; the node runs")                   \
   X(CO_DICT_DIRECT_TYPE, 4, "flag D with a type that needs an address, or that does not fit into a pointer")           \
   X(CO_DICT_NODEID_TYPE, 5, "flag N with a type that has no values relative to the node-ID; the node runs")            \
-  X(CO_DICT_WRONG_PLACE, 6, "this object has another type, see docs/cookbook.md")                                      \
+  X(CO_DICT_WRONG_PLACE, 6, "this object has another type or length, see docs/cookbook.md")                            \
   X(CO_DICT_NOT_CONFIGURED, 7, "the number of the service is beyond the configuration (CO_SSDO_N, CO_TPDO_N, ...)")    \
   X(CO_DICT_DIRECT_ADDRESS, 8, "flag D with an address, or no flag D with a value")                                    \
   X(CO_DICT_DIRECT_CONST, 9, "flags D and W in a table in read-only memory")                                           \

@@ -87,7 +87,8 @@ extern const CO_OBJ_TYPE COTReal64;  ///< functions of CO_TREAL64
 ///     {CO_KEY(0x2100, 0, CO_OBJ____PRW), CO_VAR(UNSIGNED16, Speed)},
 ///
 /// \a type: BOOLEAN, SIGNED8…64, UNSIGNED8…64, REAL32 or REAL64. \a variable:
-/// a variable with static storage, or an element of an array or structure.
+/// a variable with static storage, or an element of an array or structure. Only the size is checked, not whether the
+/// variable is an integer, a real number or a pointer.
 #define CO_VAR(type, variable) \
   CO_T##type, (CO_DATA)(&(variable) + 0 * sizeof(char[sizeof(variable) == CO_BYTES_##type ? 1 : -1]))
 

@@ -49,8 +49,8 @@
 /// CO_SDO_ERR_CMD, and clients fall back to segments.
 /// \{
 #define CO_SDO_BUF_BYTE (CO_SDO_BUF_SEG * 7)  ///< bytes of the buffer of one server
-/// Declares the static array \a name for CO_NODE_SPEC.SdoBuf, and its length in bytes, \a name Len, for
-/// CO_NODE_EXT.SdoBufLen.
+/// Defines the static array \a name, for all SDO servers, for CO_NODE_SPEC.SdoBuf, and its length in bytes, \a name
+/// Len, for CO_NODE_EXT.SdoBufLen.
 #define CO_SDO_BUFFER(name)                         \
   enum { name##Len = CO_SSDO_N * CO_SDO_BUF_BYTE }; \
   static uint8_t name[name##Len]

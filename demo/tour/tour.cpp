@@ -355,10 +355,11 @@ void print_summary(const TourResult& result, const CO_NODE_COUNTERS& counters, V
 }
 
 void print_counters(const CO_NODE_COUNTERS& counters, View& view, const char* label) {
-  view.note(label, text("%u frames received (%u for other nodes, %u malformed), %u sent, %u discarded before they were "
-                        "sent; %u SDO aborts",
-                        counters.Received, counters.Unclaimed, counters.Malformed, counters.Sent, counters.Dropped,
-                        counters.SdoAborts));
+  view.note(label,
+            text("%u frames received (%u without a consumer, %u malformed), %u sent, %u discarded before they were "
+                 "sent; %u SDO aborts",
+                 counters.Received, counters.Unclaimed, counters.Malformed, counters.Sent, counters.Dropped,
+                 counters.SdoAborts));
 }
 
 }  // namespace demo

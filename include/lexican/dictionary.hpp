@@ -5,6 +5,8 @@
 ///     constexpr CO_OBJ od[] = {
 ///         {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
 ///         {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)},
+///         {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
+///         {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
 ///         CO_OBJ_DICT_ENDMARK};
 ///     CO_OD_CHECK(od);
 ///
@@ -14,7 +16,7 @@
 ///     Dictionary<CO_DICT_NOT_ASCENDING, co::Index<'1', '0', '0', '1'>, co::Sub<'0', '0'>>
 ///
 /// This file adds no code or data to the program. It is tested with gcc 11 and 12 and with clang 14 to 19. A table of
-/// more than some thousand entries may need a higher limit of the compiler (clang: -fconstexpr-steps, gcc:
+/// more than about a thousand entries may need a higher limit of the compiler (clang: -fconstexpr-steps, gcc:
 /// -fconstexpr-ops-limit).
 #pragma once
 
@@ -52,13 +54,16 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_time_of_day.h"
 
 /// Checks at compile time that \a od, a constexpr array of CO_OBJ with static storage, is a dictionary without faults.
-/// For namespace and function scope. Entries with types of the application are checked only for the rules of all types.
-/// An object that constant mappings of an SRDO and of an ordinary PDO contain causes a warning
+/// For namespace and function scope. Mandatory objects must exist, frequent objects of CiA 301 must have the right
+/// length, and constant mappings of PDOs that are not switched off must name objects with flag P of the same length,
+/// together at most 64 bits. Rights of mapped objects and static data types are not checked. Entries with types of the
+/// application are checked only for the rules of all types. An object that constant mappings of an SRDO and of an
+/// ordinary PDO contain causes a warning
 /// (-Wdeprecated-declarations, omitted if this header is a system header).
 #define CO_OD_CHECK(od) static_assert(::co::dictionary::is_proved<od, true>(), "see Dictionary<...> above")
 
-/// Like CO_OD_CHECK(), without what CiA 301 requires of a device: mandatory objects may be missing, and its objects may
-/// have another length.
+/// Like CO_OD_CHECK(), for a part of a table, or one that codict has generated: mandatory objects, the lengths of
+/// objects of CiA 301, and targets and lengths of mappings are not checked.
 #define CO_OD_CHECK_PART(od) static_assert(::co::dictionary::is_proved<od, false>(), "see Dictionary<...> above")
 
 namespace co {
@@ -341,8 +346,7 @@ constexpr CO_DICT_FAULT check_unknown([[maybe_unused]] const CO_OBJ_TYPE* type, 
   return CO_DICT_OK;
 }
 
-/// Objects of CiA 301 that have a number of a certain width, whatever the type of the entry: index, sub-indices, width.
-/// [CiA 301, 7.5.2]
+/// Frequent objects of CiA 301 whose number has a certain width, whatever the type of the entry. [CiA 301, 7.5.2]
 struct Standard {
   std::uint16_t first;     ///< first index
   std::uint16_t last;      ///< last index
@@ -351,7 +355,7 @@ struct Standard {
   std::uint8_t width;      ///< bytes of the value
 };
 
-/// The objects; others may have any type.
+/// The frequent objects. The types of others are checked only if the library has a type for them.
 inline constexpr Standard standard[] = {
     {0x1000, 0x1000, 0, 0, 4},   {0x1001, 0x1001, 0, 0, 1},   {0x1002, 0x1002, 0, 0, 4}, {0x1003, 0x1003, 0, 0, 1},
     {0x1003, 0x1003, 1, 254, 4}, {0x1005, 0x1007, 0, 0, 4},   {0x100C, 0x100C, 0, 0, 2}, {0x100D, 0x100D, 0, 0, 1},
@@ -367,6 +371,10 @@ inline constexpr Standard standard[] = {
 
 /// Returns whether an entry of a type of the library has the width that CiA 301 defines for its object.
 constexpr bool has_standard_width(std::uint32_t key, std::uint8_t width) {
+  constexpr std::uint16_t behind = 0x2000;  // the communication profile
+  if (rules::index_of(key) >= behind) {
+    return true;
+  }
   for (const Standard& object : standard) {
     if (rules::index_of(key) >= object.first && rules::index_of(key) <= object.last &&
         rules::sub_of(key) >= object.first_sub && rules::sub_of(key) <= object.last_sub) {
@@ -407,6 +415,32 @@ constexpr std::size_t position(const CO_OBJ (&od)[Length], std::uint32_t key) {
   return Length;
 }
 
+/// Returns the number of entries before the end mark.
+template <std::size_t Length>
+constexpr std::size_t entries(const CO_OBJ (&od)[Length]) {
+  std::size_t number = 0;
+  while (number < Length && !rules::is_end(od[number].Key)) {
+    ++number;
+  }
+  return number;
+}
+
+/// Like position(), for a table of \a number entries in ascending order: a binary search.
+template <std::size_t Length>
+constexpr std::size_t sorted_position(const CO_OBJ (&od)[Length], std::size_t number, std::uint32_t key) {
+  std::size_t from = 0;
+  std::size_t to = number;
+  while (from < to) {
+    const std::size_t middle = (from + to) / 2;
+    if ((od[middle].Key >> 8) < (key >> 8)) {
+      from = middle + 1;
+    } else {
+      to = middle;
+    }
+  }
+  return from < number && (od[from].Key >> 8) == (key >> 8) ? from : Length;
+}
+
 /// Returns the key of an entry, without flags.
 constexpr std::uint32_t key_of(std::uint16_t index, std::uint8_t sub) {
   return std::uint32_t{index} << 16 | std::uint32_t{sub} << 8;
@@ -423,32 +457,27 @@ constexpr std::uintptr_t mapped_number(std::uint16_t index) {
   return content<Od>(number) == Content::address ? highest : Od[number].Data.value();
 }
 
-/// Returns the value of the mapping entry at \a place if it is a constant of the table and in use, otherwise 0. The
-/// value of a mapping in a variable is unknown to the compiler. Static data types, which skip bytes, and multiplex PDOs
-/// (FEh and FFh), which do not use their mapping entries, are 0, too. \a rule: PDOs or SRDOs
+/// Returns the value of the mapping entry at \a place if it is a constant of the table and one of the first \a number
+/// entries, otherwise 0. The value of a mapping in a variable is unknown to the compiler. Static data types, which skip
+/// bytes, and multiplex PDOs (FEh and FFh), which do not use their mapping entries, are 0, too. \a rule: PDOs or SRDOs
 template <const auto& Od>
-constexpr std::uint32_t mapped_by(const rules::Rule& rule, std::size_t place) {
+constexpr std::uint32_t mapped_by(const rules::Rule& rule, std::size_t place, std::uintptr_t number) {
   const std::uint32_t key = Od[place].Key;
   const bool is_mapping = rules::is_place(rule, key) && rules::has(key, CO_OBJ_D_____);
-  if (!is_mapping || content<Od>(place) != Content::value) {
+  if (!is_mapping || number > rules::pdo_mapping.last_sub || rules::sub_of(key) > number ||
+      content<Od>(place) != Content::value) {
     return 0;
   }
-  const std::uintptr_t number = mapped_number<Od>(rules::index_of(key));
   const auto mapping = static_cast<std::uint32_t>(Od[place].Data.value());
-  const bool is_used = number <= rules::pdo_mapping.last_sub && rules::sub_of(key) <= number;
-  return is_used && !rules::is_static_type(mapping) ? mapping : 0;
+  return rules::is_static_type(mapping) ? 0 : mapping;
 }
 
-/// Returns the position of the entry without flag P that the mapping entry at \a place maps, or the length of the
-/// table.
+/// Like the function above, with the number that the table has.
 template <const auto& Od>
-constexpr std::size_t find_unmappable(std::size_t place) {
-  const std::uint32_t mapping = mapped_by<Od>(rules::pdo_mapping, place) | mapped_by<Od>(rules::srdo_mapping, place);
-  if (mapping == 0) {
-    return length(Od);
-  }
-  const std::size_t mapped = position(Od, mapping);
-  return mapped < length(Od) && !rules::has(Od[mapped].Key, CO_OBJ____P__) ? mapped : length(Od);
+constexpr std::uint32_t mapped_by(const rules::Rule& rule, std::size_t place) {
+  return rules::is_place(rule, Od[place].Key)
+             ? mapped_by<Od>(rule, place, mapped_number<Od>(rules::index_of(Od[place].Key)))
+             : 0;
 }
 
 /// Returns whether a constant mapping of an ordinary PDO contains the object of a mapping value.
@@ -488,52 +517,89 @@ struct Finding {
   std::uint32_t key;    ///< key of the faulty entry, 0 without fault
 };
 
-/// Returns the bits of all constant mapping entries of a PDO or SRDO up to the one at \a place.
+/// Returns whether an entry of the table has a constant value with these bits.
 template <const auto& Od>
-constexpr unsigned bits_until(const rules::Rule& rule, std::size_t place) {
-  unsigned bits = 0;
-  for (std::size_t n = 0; n <= place; ++n) {
-    bits += rules::index_of(Od[n].Key) == rules::index_of(Od[place].Key) ? mapped_by<Od>(rule, n) & 0xFFu : 0;
-  }
-  return bits;
+constexpr bool has_constant(std::uint32_t key, std::uintptr_t bits) {
+  const std::size_t found = position(Od, key);
+  return found < length(Od) && rules::has(Od[found].Key, CO_OBJ_D_____) && content<Od>(found) == Content::value &&
+         (Od[found].Data.value() & bits) == bits;
 }
 
-/// Returns whether an entry can be mapped with so many bits. Types of the application and bytes may have any length.
+/// Returns whether an entry can be mapped with so many bits. Types of the application may have any length.
 template <const auto& Od>
-constexpr bool has_bits(std::size_t position, unsigned bits) {
+constexpr bool has_bits(std::size_t position, unsigned bits, bool is_srdo) {
   const Type type = type_of(Od[position]);
-  const bool is_bit = type.value == Value::boolean && bits == 1 && USE_PDO_BITS != 0;
-  return type.width == 0 || is_bit || bits == type.width * 8u;
+  const bool is_bit = bits == 1 && USE_PDO_BITS != 0 && !is_srdo && is_same(Od[position].Type, &COTBoolean);
+  if (type.value == Value::of_application || is_bit) {
+    return true;
+  }
+  return type.width != 0 ? bits == type.width * 8u : bits != 0 && bits % 8u == 0;
 }
 
-/// Checks the mapping entry at \a place, if it is constant.
+/// What the check of a mapping remembers from entry to entry.
+struct MappingState {
+  std::size_t entries = 0;      ///< of the table
+  std::uint16_t index = 0;      ///< index of the mapping
+  std::uintptr_t number = 0;    ///< mapped objects
+  bool is_ignored = false;      ///< the PDO is switched off by a constant COB-ID
+  bool is_counted = false;      ///< the number of objects is constant
+  unsigned bits[2] = {0u, 0u};  ///< bits so far; of an SRDO those of both frames: odd and even sub-indices
+};
+
+/// Returns the state at the first entry of a mapping.
 template <const auto& Od>
-constexpr CO_DICT_FAULT check_mapping(const rules::Rule& rule, std::size_t place) {
-  const std::uint32_t mapping = mapped_by<Od>(rule, place);
-  if (mapping == 0) {
-    return CO_DICT_OK;
+constexpr MappingState mapping_state(std::size_t entries, std::uint16_t index) {
+  constexpr std::uint16_t to_communication = 0x200;
+  constexpr std::uintptr_t off = 0x80000000u;
+  MappingState state;
+  state.entries = entries;
+  state.index = index;
+  state.number = mapped_number<Od>(index);
+  const bool is_pdo = rules::is_place(rules::pdo_mapping, key_of(index, 1));
+  state.is_ignored = is_pdo && has_constant<Od>(key_of(static_cast<std::uint16_t>(index - to_communication), 1), off);
+  state.is_counted = has_constant<Od>(key_of(index, 0), 0);
+  return state;
+}
+
+/// Checks the mapping entry at \a place, if it is constant and the PDO is not switched off.
+template <const auto& Od, bool Complete>
+constexpr Finding check_mapping(std::size_t place, MappingState& state) {
+  const std::uint32_t key = Od[place].Key;
+  const bool is_srdo = rules::is_place(rules::srdo_mapping, key);
+  if (!is_srdo && !rules::is_place(rules::pdo_mapping, key)) {
+    return {CO_DICT_OK, 0};
   }
-  const std::size_t mapped = position(Od, mapping);
+  if (state.index != rules::index_of(key)) {
+    state = mapping_state<Od>(state.entries, rules::index_of(key));
+  }
+  const std::uint32_t mapping = mapped_by<Od>(is_srdo ? rules::srdo_mapping : rules::pdo_mapping, place, state.number);
+  if (mapping == 0 || state.is_ignored) {
+    return {CO_DICT_OK, 0};
+  }
+  const std::size_t mapped = sorted_position(Od, state.entries, mapping);
   if (mapped == length(Od)) {
-    return CO_DICT_MAP_TARGET;
+    return {Complete ? CO_DICT_MAP_TARGET : CO_DICT_OK, Complete ? key : 0};
+  }
+  if (!rules::has(Od[mapped].Key, CO_OBJ____P__)) {
+    return {CO_DICT_NOT_MAPPABLE, Od[mapped].Key};
   }
   constexpr unsigned most = 64;
-  return has_bits<Od>(mapped, mapping & 0xFFu) && bits_until<Od>(rule, place) <= most ? CO_DICT_OK : CO_DICT_MAP_LENGTH;
+  unsigned& sum = state.bits[is_srdo ? rules::sub_of(key) & 1u : 0u];
+  sum += mapping & 0xFFu;
+  const bool fits = !Complete || (has_bits<Od>(mapped, mapping & 0xFFu, is_srdo) && (!state.is_counted || sum <= most));
+  return {fits ? CO_DICT_OK : CO_DICT_MAP_LENGTH, fits ? 0 : key};
 }
 
-/// Checks whether all mapped objects have flag P, exist and have the mapped length. Returns the first mapped object
-/// without flag P, or the wrong mapping entry.
-template <const auto& Od>
+/// Checks whether all objects of constant mappings exist, have flag P and have the mapped length. Returns the first
+/// mapped object without flag P, or the first wrong mapping entry.
+template <const auto& Od, bool Complete>
 constexpr Finding check_mappings() {
+  MappingState state;
+  state.entries = entries(Od);
   for (std::size_t place = 0; place < length(Od); ++place) {
-    const std::size_t mapped = find_unmappable<Od>(place);
-    if (mapped < length(Od)) {
-      return {CO_DICT_NOT_MAPPABLE, Od[mapped].Key};
-    }
-    const CO_DICT_FAULT of_pdo = check_mapping<Od>(rules::pdo_mapping, place);
-    const CO_DICT_FAULT fault = of_pdo != CO_DICT_OK ? of_pdo : check_mapping<Od>(rules::srdo_mapping, place);
-    if (fault != CO_DICT_OK) {
-      return {fault, Od[place].Key};
+    const Finding finding = check_mapping<Od, Complete>(place, state);
+    if (finding.fault != CO_DICT_OK) {
+      return finding;
     }
   }
   return {CO_DICT_OK, 0};
@@ -552,7 +618,7 @@ constexpr Finding check_mandatory() {
   return {CO_DICT_OK, 0};
 }
 
-/// Checks the table. Returns its first fault. \a Complete: whether it is that of a device
+/// Checks the table. Returns its first fault. \a Complete: as CO_OD_CHECK(), otherwise as CO_OD_CHECK_PART()
 template <const auto& Od, bool Complete = true>
 constexpr Finding check() {
   std::uint32_t previous = 0;
@@ -569,7 +635,7 @@ constexpr Finding check() {
     }
     previous = key;
   }
-  const Finding finding = check_mappings<Od>();
+  const Finding finding = check_mappings<Od, Complete>();
   return finding.fault != CO_DICT_OK || !Complete ? finding : check_mandatory<Od>();
 }
 

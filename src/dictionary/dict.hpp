@@ -36,8 +36,8 @@ void set_power_on_values(CO_NODE_T& node, CO_NMT_RESET type);
 // records the fault and returns CO_ERR_TYPE_INIT.
 // fault_of(), fault_key_of(): return the recorded fault, and the key of the entry that has it.
 // check(): checks the keys of all entries.
-// out_of_order(): returns the key of the first entry that is not above the one before it, or 0. Without USE_DICT_CHECK
-// no fault is recorded, and this function is all that CODictGetFault() has.
+// out_of_order(): returns the key of the first entry that is not above the one before it, or 0. CODictGetFault() calls
+// it where USE_DICT_CHECK is 0, because no fault is recorded then.
 #if USE_DICT_CHECK
 CO_ERR set_fault(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault);
 [[nodiscard]] CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule);

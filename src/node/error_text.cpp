@@ -5,7 +5,7 @@
 namespace co::error {
 namespace {
 
-// Appends to a text; what does not fit is cut off.
+// A text of limited size, which always ends with a NUL. Letters that do not fit are left out.
 class Text {
  public:
   Text(char* text, uint32_t size) : next_(text), last_(text + size - 1) { *next_ = '\0'; }
@@ -59,8 +59,8 @@ extern "C" CO_ERR CONodeGetErrText(CO_NODE* node, char* text, uint32_t size) {
   CO_ERR err = CONodeGetErr(node);
   if (err != CO_ERR_NONE) {
     co::error::add_line(out, COErrName(err), CONodeGetErrKey(node), COErrText(err));
-    out.add(fault != CO_DICT_OK ? "; " : "");
-  } else if (USE_DICT_CHECK == 0 && fault != CO_DICT_OK) {  // found now
+    out.add(fault != CO_DICT_OK ? "; dictionary: " : "");
+  } else if (USE_DICT_CHECK == 0 && fault != CO_DICT_OK) {  // CODictGetFault() has found it
     err = CO_ERR_DICT_INIT;
   } else {
     out.add(COErrText(CO_ERR_NONE));

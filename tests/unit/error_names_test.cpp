@@ -135,7 +135,8 @@ TEST_CASE("CONodeGetErrText: a text that is too long is cut off; the longest one
     const auto fault = static_cast<CO_DICT_FAULT>(number);
     longest_fault = std::max(longest_fault, std::strlen(CODictFaultName(fault)) + std::strlen(CODictFaultText(fault)));
   }
-  CHECK(longest_error + longest_fault + 2 * std::strlen(", object 1A00h:0B: ") + std::strlen("; ") < CO_NODE_ERR_TEXT);
+  CHECK(longest_error + longest_fault + 2 * std::strlen(", object 1A00h:0B: ") + std::strlen("; dictionary: ") <
+        CO_NODE_ERR_TEXT);
 }
 
 // The numbers must not change, because firmware logs them.

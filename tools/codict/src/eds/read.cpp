@@ -34,9 +34,11 @@ void report_form(const NamedSection& named, const Reader& reader) {
   }
   if (named.name.has_mark) {
     const std::string index = fmt::format("{:04X}", named.name.index);
-    reader.findings.add(
-        rules::section_mark, named.section->name, fmt::format("0x or h in [{}], read as index {}h", name, index),
-        fmt::format("write [{}{}]", index, named.name.is_sub ? fmt::format("sub{:X}", named.name.sub_index) : ""));
+    const bool is_plain = named.name.kind == SectionKind::object || named.name.kind == SectionKind::sub;
+    const std::string sub = named.name.is_sub ? fmt::format("sub{:X}", named.name.sub_index) : "";
+    reader.findings.add(rules::section_mark, named.section->name,
+                        fmt::format("0x or h in [{}], read as index {}h", name, index),
+                        is_plain ? fmt::format("write [{}{}]", index, sub) : fmt::format("write only {} there", index));
   }
   if (named.name.has_odd_case) {
     reader.findings.add(rules::section_form, named.section->name, fmt::format("unusual capitals in [{}]", name),

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t memory_size = 32;
 
-std::string said_of(const Item& item) {
+std::string comment_of(const Item& item) {
   return fmt::format("{}: {}, {} {}", place_name(item), comment_text(item.name), data_type(item.form->code).name,
                      name_of(item.access));
 }
@@ -159,11 +159,11 @@ std::vector<External> externals_of(const Plan& plan, const Options& options) {
     const std::string name = external_of(item, options);
     if (is_first_of_shared(plan, item, options)) {
       const std::string structure = shared_of(item, options);
-      all.push_back({structure, fmt::format("extern {} {};", shared_type(item).type, structure), said_of(item)});
+      all.push_back({structure, fmt::format("extern {} {};", shared_type(item).type, structure), comment_of(item)});
     } else if (item.has_own_type) {
-      all.push_back({name + "_type", fmt::format("extern const CO_OBJ_TYPE {}_type;", name), said_of(item)});
+      all.push_back({name + "_type", fmt::format("extern const CO_OBJ_TYPE {}_type;", name), comment_of(item)});
     } else if (item.storage == Storage::external) {
-      all.push_back({name, fmt::format("extern {} {};", memory_type(item), name), said_of(item)});
+      all.push_back({name, fmt::format("extern {} {};", memory_type(item), name), comment_of(item)});
     }
   }
   return all;
@@ -177,13 +177,13 @@ std::string write_stubs(const Plan& plan, const Options& options) {
   out.add("#include \"{}_od.h\"\n\n#include <stddef.h>\n#include <string.h>", options.name);
   for (const Item& item : plan.items) {
     if (is_first_of_shared(plan, item, options)) {
-      out.add("\n// {}", said_of(item));
+      out.add("\n// {}", comment_of(item));
       out.add(fmt::runtime(shared_type(item).stub), shared_of(item, options));
     }
     if (!is_external(item)) {
       continue;
     }
-    out.add("\n// {}", said_of(item));
+    out.add("\n// {}", comment_of(item));
     if (item.has_own_type) {
       write_type(item, external_of(item, options), out);
     } else {

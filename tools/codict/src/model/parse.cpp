@@ -130,9 +130,10 @@ bool fit(Integer& number, Base base, const DataType& type, const Value& value, F
   }
   findings.add(rules::value_range, value.span,
                fmt::format("{} does not fit {} ({})", in_quotes(value.text), type.name, range_of(type)),
-               is_pattern ? fmt::format("write 0x{:X} for the bit pattern of {}, or correct the value or data type",
-                                        number.magnitude, meaning)
-                          : "correct the value, or use a larger data type");
+               is_pattern && !value.adds_node_id
+                   ? fmt::format("write 0x{:X} for the bit pattern of {}, or correct the value or data type",
+                                 number.magnitude, meaning)
+                   : "correct the value, or use a larger data type");
   return false;
 }
 
