@@ -536,7 +536,7 @@ constexpr bool has_bits(std::size_t position, unsigned bits, bool is_srdo) {
   return type.width != 0 ? bits == type.width * 8u : bits != 0 && bits % 8u == 0;
 }
 
-/// What the check of a mapping remembers from entry to entry.
+/// State of the check of a mapping, kept from entry to entry.
 struct MappingState {
   std::size_t entries = 0;      ///< of the table
   std::uint16_t index = 0;      ///< index of the mapping
