@@ -5,9 +5,9 @@ packages=("${build_packages[@]}" python3 clang lld=ld.lld)
 
 lane() {
   local targets=(lexican_tests tests/compat/all)
-  local flags="-O1 -DNDEBUG -DUSE_PDO_BITS=1"
   build_tree clang -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
-    -DCMAKE_C_FLAGS_RELEASE="$flags" -DCMAKE_CXX_FLAGS_RELEASE="$flags" || return
+    -DCMAKE_C_FLAGS=-DUSE_PDO_BITS=1 -DCMAKE_CXX_FLAGS=-DUSE_PDO_BITS=1 \
+    -DCMAKE_C_FLAGS_RELEASE="-O1 -DNDEBUG" -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" || return
   run_doctest clang "$build/clang/tests/lexican_tests"
   run_ctest clang-compat "$build/clang/tests/compat"
 }
