@@ -600,9 +600,9 @@ class Sender {
     frm.Data[1] = static_cast<std::uint8_t>(number_ >> 8);
     ++number_;
     frames_.push_back({frm, bench_.wire.now(), false});
-    waiting_.push_back(frm);
-    std::stable_sort(waiting_.begin(), waiting_.end(),
-                     [](const CO_IF_FRM& a, const CO_IF_FRM& b) { return a.Identifier < b.Identifier; });
+    const auto behind = std::upper_bound(waiting_.begin(), waiting_.end(), frm,
+                                         [](const auto& a, const auto& b) { return a.Identifier < b.Identifier; });
+    waiting_.insert(behind, frm);
   }
   void offer() {
     while (!waiting_.empty() && can_.takes(waiting_.front())) {

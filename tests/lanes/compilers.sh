@@ -12,7 +12,7 @@ lane() {
 }
 
 with_compiler() {  # PACKAGE STANDARD
-  local package=$1 c=${1/g++/gcc} cxx=${1/clang/clang++}
+  local package=$1 c=${1/g++/gcc} cxx=${1/clang/clang++} targets=(lexican_tests)
   if ! install_packages "$package=$cxx"; then
     skip "$package, C++$2: not available"
     return
