@@ -244,8 +244,7 @@ typedef struct CO_NODE_T {
 /// Initialises a node and its drivers and puts the controller on the bus; no frame is sent. The node is then in
 /// CO_INIT, and CONodeGetErr() returns the last error. Only these errors leave the node in CO_INVALID:
 /// - CO_ERR_NODE_EXT, CO_ERR_NODE_CAN, CO_ERR_NODE_TIMER, CO_ERR_NODE_TMR_FREQ: the node calls no driver, now or later;
-/// - CO_ERR_NODE_ID, CO_ERR_NODE_DICT, CO_ERR_NODE_SDO_BUF: the drivers are initialised, the controller stays off the
-/// bus;
+/// - CO_ERR_NODE_ID, CO_ERR_NODE_DICT, CO_ERR_NODE_SDO_BUF: the drivers are initialised, the controller is off the bus;
 /// - CO_ERR_DICT_INIT: the drivers are initialised, the controller stays off the bus; CODictGetFault() returns the
 ///   faulty entry.
 ///
@@ -299,10 +298,10 @@ uint32_t CONodeGetErrKey(const CO_NODE* node);
 /// Like CONodeGetErr(), and writes name, object and meaning of the error to \a text, with the fault of the dictionary
 /// if there is one: "CO_ERR_TPDO_MAP_OBJ, object 1A00h:02: …"; "no error" for CO_ERR_NONE. Text beyond \a size bytes
 /// is cut off; it always ends with a NUL. Names and meanings take about 8 KB of flash, only in a program that calls
-/// this function, COErrName(), COErrText() or those of co_dict.h. \retval CO_ERR_NONE       no error since the last
-/// call \retval CO_ERR_DICT_INIT  the dictionary is refused. With USE_DICT_CHECK 0: entries are in the wrong order;
-/// returned by
-///                           each call, and the node may run
+/// this function, COErrName(), COErrText() or those of co_dict.h. With USE_DICT_CHECK 0 each call returns
+/// CO_ERR_DICT_INIT while entries are in the wrong order, also if the node runs.
+/// \retval CO_ERR_NONE       no error since the last call
+/// \retval CO_ERR_DICT_INIT  the dictionary is refused, or its entries are in the wrong order
 /// \retval CO_ERR_BAD_ARG    an argument is null, or \a size is 0
 CO_ERR CONodeGetErrText(CO_NODE* node, char* text, uint32_t size);
 

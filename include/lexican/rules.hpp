@@ -8,7 +8,6 @@
 ///   which only the compiler may do: at run time, a list of all types would link all of them into a firmware that uses
 ///   three. At run time a type that is restricted to certain indices checks its rule in its Init function.
 /// - Checks of values against addresses, of writable data in read-only memory, of mandatory objects, lengths and
-/// constant
 ///   mappings are done by CO_OD_CHECK() only (lexican/dictionary.hpp).
 #pragma once
 
