@@ -2,13 +2,14 @@
 about="the demo node on four microcontrollers without an operating system, in QEMU; the host's master, over slcan"
 minutes=2
 . "$root/demo/bare_metal/emulate.sh"
-packages=("${build_packages[@]}")
+packages=("${build_packages[@]}" python3)
 for board in "${boards[@]}"; do
   mapfile -t -O ${#packages[@]} packages < <(board_packages "$board")
 done
 
 # Builds for one board after the other, then runs all boards at the same time.
 lane() {
+  run_pages "$root"
   local board demo arguments targets=(lexican-demo-bare-metal lexican-timer-test)
   host_demo || return
   for board in "${boards[@]}"; do

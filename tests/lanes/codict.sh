@@ -36,6 +36,7 @@ all_cases() {
   run_doctest "codict nodes" "$of/tests/lexican_codict_node_tests"
   built_from codict tools/codict/tests -name '*_test.cpp'
   host_codict && LEXICAN_CODICT=$codict run_doctest "codict memory" "$of/tests/lexican_codict_memory_tests"
+  codict_pages
   for target in "${tool_fuzz_targets[@]}"; do
     check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
   done
@@ -52,4 +53,15 @@ install_codict() {
     grep '^complete .* codict$' "$prefix/share/bash-completion/completions/codict" &&
     grep '^#compdef codict$' "$prefix/share/zsh/site-functions/_codict" &&
     grep '^complete -c codict ' "$prefix/share/fish/vendor_completions.d/codict.fish"
+}
+
+# Runs the commands of the pages with descriptions in place of those that a reader has.
+codict_pages() {
+  local fixtures=$root/tools/codict/tests/fixtures
+  copy_sources
+  mkdir -p "$copy/build/codict"
+  ln -s "$codict" "$copy/build/codict/codict"
+  cp "$fixtures"/network/{drive.eds,io.eds,plan.yaml} "$root"/demo/clock/{clock.xdd,generated/clock.eds} "$copy"
+  cp "$root/demo/heater/heater.xdd" "$copy/device.xdd"
+  PATH=$copy/build/codict:$PATH run_pages "$copy"
 }

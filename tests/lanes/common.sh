@@ -228,6 +228,25 @@ run_tap() {
   fi
 }
 
+# Copies the sources to a directory where a reader of the pages would have them, and sets $copy to its path.
+copy_sources() {
+  copy=$results/pages-$lane_name/lexican
+  rm -rf "${copy%/*}"
+  mkdir -p "$copy" "${copy%/*}/home"
+  # tar would fail if another lane adds a file to the directory meanwhile.
+  find "$root" -mindepth 1 -maxdepth 1 ! -name build ! -name .git -exec cp -a -t "$copy" {} +
+}
+
+# Runs the commands of the pages that name this lane (tests/system/commands.py): run_pages [DIRECTORY], by default in a
+# copy of the sources.
+run_pages() {
+  local commands=$results/$lane_name.commands
+  [ -n "${1:-}" ] || copy_sources
+  python3 "$root/tests/system/commands.py" "$root" "$lane_name" >"$commands"
+  run_tap env HOME="$results/pages-$lane_name/home" CFLAGS=-Werror CXXFLAGS=-Werror sh "$root/tests/system/commands.sh" \
+    "$commands" "${1:-$copy}"
+}
+
 # Prints files of the project: sources src drivers -name '*.cpp'
 sources() {
   local places=()

@@ -6,6 +6,8 @@ packages=(g++ cmake ninja-build=ninja libcli11-dev=/usr/include/CLI/CLI.hpp pyth
 lane() {
   export CFLAGS=-Werror CXXFLAGS=-Werror
   now_in "$build/demo/build.log"
+  run_pages "$root"
+  rm -f "$root/recorder.svg"
   check "demo/run --virtual" shows "steps in .* all as expected" --virtual
   check "demo/run thermometer" shows "TPDO1 temperature in 0.1 degrees Celsius = 1010" thermometer
   check "demo/run recorder, and its picture in Chromium" drawn

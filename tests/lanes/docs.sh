@@ -9,6 +9,8 @@ lane() {
   local site=$build/site
   check "the site builds without a warning" "$root/docs/run" --build || return
   run_tap python3 "$root/docs/site/check.py" "$site/html"
+  run_tap python3 "$root/tests/system/commands.py" "$root"
+  check "found: a command that no lane runs" unrun_command
   check "found: a page that loads from elsewhere" planted '<script src="https://example.org/a.js"></script>'
   check "found: a link that leads nowhere" planted '<a href="../nowhere/">nowhere</a>'
   check "the API reference accepts a documented header" reference '/// \file planted.hpp' '/// A header.' '' \
@@ -75,6 +77,17 @@ without_results() {  # LINE...
 undocumented() {  # LINE...
   local said
   ! said=$(reference "$@" 2>&1) && grep ' has no comment$' <<<"$said"
+}
+
+unrun_command() {
+  local pages=$results/planted-commands
+  rm -rf "$pages"
+  mkdir -p "$pages/tests/system"
+  printf '%s\n' '```sh' 'make nothing' '```' >"$pages/page.md"
+  echo 'is run by hand | make something' >"$pages/tests/system/commands_not_run.txt"
+  ! python3 "$root/tests/system/commands.py" "$pages" >"$pages/said" &&
+    grep '^not ok page.md: make nothing: no lane runs it' "$pages/said" &&
+    grep '^not ok commands_not_run.txt: make something: no page has this command' "$pages/said"
 }
 
 planted() {  # HTML

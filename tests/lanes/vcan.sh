@@ -15,8 +15,9 @@ lane() {
     return
   }
   heater >"$results/heater.log" 2>&1 || { fail "build of demo/heater" "$results/heater.log"; return; }
+  python3 "$root/tests/system/commands.py" "$root" vcan >"$results/vcan.commands"  # in place of run_pages
   run_tap "$root/tests/system/vcan/run" "$demo/linux_node/lexican-demo-node" "$demo/linux_master/lexican-demo-master" \
-    "$build/release/tests/lexican_bus_tests" "$check" "$build/heater/heater"
+    "$build/release/tests/lexican_bus_tests" "$check" "$build/heater/heater" "$results/vcan.commands"
 }
 
 # Builds as docs/use.md describes, with the codict that a project for another machine has built.

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # run.sh WAY LANGUAGE DIRECTORY SOURCE PREFIX
 # Builds the program main.c (LANGUAGE C) or main.cpp (CXX) in DIRECTORY against the library, whose sources are in SOURCE
-# and which is installed in PREFIX, in one WAY of using it; and runs it. WAY readme runs the command lines of README.md and docs/use.md.
+# and which is installed in PREFIX, in one WAY of using it; and runs it.
 set -euo pipefail
 
 way=$1 language=$2 directory=$3 source=$4 prefix=$5
@@ -30,55 +30,6 @@ by_cmake() {
   # Nothing of ours but the library gets into a user's build.
   [ -z "$(find "$directory" -name 'lexican_*' -o -name 'lexican-demo*')" ]
 }
-
-# The blocks of a LANGUAGE in README.md, "A complete program", and in docs/use.md, "Build, install, link".
-readme_blocks() {
-  awk -v language="$1" '
-    /^## / { used = /^## (A complete program|Build, install, link)$/ }
-    /^```/ { inside = used && $0 == "```" language; next }
-    inside' "$source/README.md" "$source/docs/use.md"
-}
-
-# Packages are not installed here: what README names has to be there.
-sudo() {
-  [ "$*" != "apt-get update" ] || return 0
-  [ "$1 $2" = "apt-get install" ] || return
-  local package
-  for package in "${@:3}"; do
-    command -v "${package/ninja-build/ninja}" || { echo "README names $package, which is not here"; return 1; }
-  done
-}
-
-# The commands of README.md and docs/use.md as a user follows them, in a copy of the sources and with a home directory of its own. There is no make: demo/run
-# does not install it.
-by_readme() {
-  export HOME=$directory/home PATH=$directory/bin:$PATH
-  mkdir -p "$directory/clone/firmware" "$directory/bin" "$HOME"
-  ln -s /bin/false "$directory/bin/make"
-  # tar would fail if another lane adds a file to the directory meanwhile.
-  find "$source" -mindepth 1 -maxdepth 1 ! -name build ! -name .git -exec cp -a -t "$directory/clone" {} +
-  cp "$program" "$directory/clone/firmware/main.c"
-  readme_blocks cmake >"$directory/clone/firmware/CMakeLists.txt"
-  mapfile -t commands < <(readme_blocks sh | sed -e ':join; /\\$/ { N; s/\\\n//; b join }')
-  [ ${#commands[@]} -ge 6 ]
-  cd "$directory/clone"
-  unset CMAKE_GENERATOR CMAKE_BUILD_TYPE CMAKE_PREFIX_PATH PKG_CONFIG_PATH
-  local command
-  for command in "${commands[@]}"; do
-    echo "\$ $command"
-    eval "$command" || { echo "README: this command failed"; return 1; }
-  done | tee "$directory/said"
-  grep -x ' 500 ms, node 5: 705 7F' "$directory/said"
-  grep -e '^-I.*/include/lexican -L.* -llexican' "$directory/said"
-  grep -x 'CMAKE_BUILD_TYPE:STRING=Release' build/lexican/CMakeCache.txt
-  mv firmware/build/firmware "$directory/consumer"
-}
-
-if [ "$way" = readme ]; then
-  by_readme
-  timeout 10 "$directory/consumer"
-  exit
-fi
 
 library=$(dirname "$(find "$prefix" -name liblexican.a)")
 case $way in

@@ -479,6 +479,12 @@ summary=$(grep "test cases:" /tmp/socketcan)
 echo "$summary" | grep -Eq "test cases: +10 +\| +10 passed"
 verdict $? "the SocketCAN driver on real interfaces: 10 cases" "$summary"
 
+# The pages show /dev/pts/0 as an example of the name that the node prints.
+$node --serve --pty --node-id 5 >/tmp/trace 2>&1 &
+sh /commands.sh /vcan.commands /lexican >/tmp/pages
+grep -v '^1\.\.' /tmp/pages
+cases=$((cases + $(grep -cE '^(not )?ok ' /tmp/pages)))
+
 checked() {  # OTHER-END NAME
   lexican-driver-check vcan0 "$1" >/tmp/check 2>&1
   verdict $? "driver check of SocketCAN, $2" "$(grep -v ^ok /tmp/check | head -n 3)"
