@@ -29,7 +29,7 @@ static_assert(offsetof(CO_RPDO, Own.Data) % sizeof(Word) == 0);
 // Links of the list are PDO numbers from 1.
 constexpr uint16_t none = 0;
 CO_RPDO& at(CO_NODE& node, uint16_t link) {
-  CO_ASSERT(link != none && link <= CO_RPDO_N);
+  CO_ASSERT(link != none);
   return node.RPdo[link - 1];
 }
 uint16_t link_of(const CO_RPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->RPdo + 1); }

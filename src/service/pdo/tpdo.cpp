@@ -26,7 +26,7 @@ static_assert(offsetof(CO_TPDO, Own) % sizeof(Word) == 0);
 // Links of the list are PDO numbers from 1.
 constexpr uint16_t none = 0;
 CO_TPDO& at(CO_NODE& node, uint16_t link) {
-  CO_ASSERT(link != none && link <= CO_TPDO_N);
+  CO_ASSERT(link != none);
   return node.TPdo[link - 1];
 }
 
