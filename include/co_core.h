@@ -296,10 +296,12 @@ uint32_t CONodeGetErrKey(const CO_NODE* node);
 #define CO_NODE_ERR_TEXT 400
 
 /// Like CONodeGetErr(), and writes name, object and meaning of the error to \a text, with the fault of the dictionary
-/// if there is one: "CO_ERR_TPDO_MAP_OBJ, object 1A00h:02: …"; "no error" for CO_ERR_NONE. Text beyond \a size bytes
-/// is cut off; it always ends with a NUL. Names and meanings take about 8 KB of flash, only in a program that calls
-/// this function, COErrName(), COErrText() or those of co_dict.h. With USE_DICT_CHECK 0 each call returns
-/// CO_ERR_DICT_INIT while entries are in the wrong order, also if the node runs.
+/// if there is one: "CO_ERR_TPDO_MAP_OBJ, object 1A00h:02: …". For CO_ERR_NONE the text is "no error", and what is
+/// missing: CONodeStart(), a bit rate, COTmrService() or COTmrProcess() for a timer that has elapsed, 1017h. Text
+/// beyond \a size bytes is cut off; it always ends with a NUL. Names and meanings take about 8 KB of flash, only in a
+/// program that calls this function, COErrName(), COErrText() or those of co_dict.h. With USE_DICT_CHECK 0 each call
+/// returns CO_ERR_DICT_INIT while entries are in the wrong order, also if the node runs.
+///
 /// \retval CO_ERR_NONE       no error since the last call
 /// \retval CO_ERR_DICT_INIT  the dictionary is refused, or its entries are in the wrong order
 /// \retval CO_ERR_BAD_ARG    an argument is null, or \a size is 0

@@ -375,6 +375,19 @@ uint32_t now(CO_NODE& node) {
   return port::now(node);
 }
 
+Missing missing_call(CO_NODE& node) {
+  const CO_TMR& t = node.Tmr;
+  const Lock lock(t);
+  const CO_TMR_MEM* const first = t.First;
+  const uint32_t late = first == nullptr ? 0 : port::now(node) - first->At;
+  // The clock of a classic driver does not advance beyond an alarm that was not served.
+  const bool is_stuck = node.If.HasElapsed != nullptr && late == 0 && first != nullptr && !has_due(t);
+  if (late > INT32_MAX || (late <= t.Freq / 8 && !is_stuck)) {
+    return Missing::nothing;
+  }
+  return has_due(t) ? Missing::process : Missing::service;
+}
+
 uint32_t next_deadline(CO_NODE& node) {
   CO_TMR& timers = node.Tmr;
   const Lock lock(timers);

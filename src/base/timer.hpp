@@ -61,6 +61,10 @@ inline void assign_to_real_time(CO_TMR_MEM&) {}
 // armed.
 [[nodiscard]] uint32_t now(CO_NODE& node);
 
+// Call that an elapsed timer has been without for an eighth of a second.
+enum class Missing : uint8_t { nothing, service, process };
+[[nodiscard]] Missing missing_call(CO_NODE& node);
+
 // Converts ticks of the clock to milliseconds. rest: part of a millisecond that was left by the last call, in units of
 // 1 ms / ticks per second; 0 at first. The timer frequency is not 0.
 [[nodiscard]] uint32_t milliseconds(const CO_NODE& node, uint32_t ticks, uint32_t& rest);

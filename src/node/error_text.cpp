@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The last error of a node as text, without the formatting functions of the C library.
+#include "base/timer.hpp"
 #include "co_core.h"
+#include "dictionary/dict.hpp"
+#include "node/services.hpp"
 
 namespace co::error {
 namespace {
@@ -46,6 +49,32 @@ void add_line(Text& text, const char* name, uint32_t key, const char* meaning) {
   text.add(meaning);
 }
 
+bool has(CO_NODE& node, uint16_t index) { return CODictFind(&node.Dict, CO_DEV(index, 0)) != nullptr; }
+
+// Appends calls and settings that are missing in a node that has no error.
+void add_hints(Text& text, CO_NODE& node) {
+  if (node.Nmt.Mode == CO_INVALID) {
+    text.add("; stopped by an earlier error (CO_INVALID)");
+    return;
+  }
+  if (node.Nmt.Mode == CO_INIT) {
+    text.add(services::is_started(node) ? "; unconfigured: it waits for a node-ID by LSS"
+                                        : "; CONodeStart() has not been called");
+  }
+  if (node.Baudrate == 0) {
+    text.add("; the bit rate is 0 (CO_NODE_SPEC.Baudrate)");
+  }
+  const tmr::Missing missing = tmr::missing_call(node);
+  if (missing != tmr::Missing::nothing) {
+    text.add("; a timer has elapsed, and ");
+    text.add(missing == tmr::Missing::service ? "COTmrService()" : "COTmrProcess()");
+    text.add(" has not been called since");
+  }
+  if (!has(node, 0x1017) && !has(node, 0x100C)) {
+    text.add("; no heartbeat: the dictionary has no object 1017h");
+  }
+}
+
 }  // namespace
 }  // namespace co::error
 
@@ -64,6 +93,9 @@ extern "C" CO_ERR CONodeGetErrText(CO_NODE* node, char* text, uint32_t size) {
     err = CO_ERR_DICT_INIT;
   } else {
     out.add(COErrText(CO_ERR_NONE));
+    if (node->Ext != nullptr) {
+      co::error::add_hints(out, *node);
+    }
     return CO_ERR_NONE;
   }
   if (fault != CO_DICT_OK) {

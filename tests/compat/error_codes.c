@@ -109,6 +109,7 @@ static const struct {
     ROW(CO_ERR_PARA_OVERLAP, 0x15B),
     ROW(CO_ERR_OBJ_RANGE_LOW, 0x15C),
     ROW(CO_ERR_NODE_SDO_BUF, 0x15D),
+    ROW(CO_ERR_NODE_ID_TWICE, 0x15E),
 };
 
 #define EXPECTED_NUM (sizeof(Expected) / sizeof(Expected[0]))

@@ -9,12 +9,13 @@
 #include <string>
 
 #include "support/fixture.hpp"
+#include "support/plain_drivers.hpp"
 
 namespace {
 
 using namespace test;
 
-constexpr unsigned last_error = 0x15D;
+constexpr unsigned last_error = 0x15E;
 constexpr unsigned last_fault = 15;
 
 // Checks that the text is one line that can follow the name of an error in a message.
@@ -93,6 +94,68 @@ TEST_CASE("CONodeGetErrText: name, object and meaning of the last error, then no
   CHECK(text == std::string("CO_ERR_IF_CAN_SEND: ") + COErrText(CO_ERR_IF_CAN_SEND));
 }
 
+TEST_CASE("CONodeGetErrText: without an error the text names missing calls and settings") {
+  std::string text;
+  SUBCASE("CONodeStart()") {
+    Fixture node(Setup().stay_in_init());
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text == "no error; CONodeStart() has not been called");
+  }
+  SUBCASE("the bit rate, after a look at the node in CO_INVALID") {
+    Fixture node;
+    node->Baudrate = 0;
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text == "no error; the bit rate is 0 (CO_NODE_SPEC.Baudrate)");
+    const CO_MODE mode = node->Nmt.Mode;
+    node->Nmt.Mode = CO_INVALID;
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text == "no error; stopped by an earlier error (CO_INVALID)");
+    node->Nmt.Mode = mode;
+  }
+  SUBCASE("COTmrService() and COTmrProcess()") {
+    Fixture node(Setup().heartbeat(100));
+    node.idle(100ms);
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text == "no error");
+    node.idle(126ms);
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text == "no error; a timer has elapsed, and COTmrService() has not been called since");
+    COTmrService(&node->Tmr);
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text == "no error; a timer has elapsed, and COTmrProcess() has not been called since");
+    COTmrProcess(&node->Tmr);
+    node.tx("701#7F");
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text == "no error");
+  }
+  SUBCASE("COTmrService(), with a classic driver") {
+    PlainNode node(false);
+    COTmrCreate(
+        &node.node.Tmr, 10, 0, [](void*) {}, nullptr);
+    plain_timer().left = 0;
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text.find("; a timer has elapsed, and COTmrService() has not been called since") != std::string::npos);
+    COTmrService(&node.node.Tmr);
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text.find("timer") == std::string::npos);
+  }
+  SUBCASE("the heartbeat") {
+    Fixture node(Setup().without(0x1017, 0));
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text == "no error; no heartbeat: the dictionary has no object 1017h");
+  }
+}
+
+TEST_CASE("A heartbeat with the node's own node-ID is reported") {
+  Fixture node(Setup().node_id(5));
+  node.rx("706#05");
+  CHECK(CONodeGetErr(&node.node) == CO_ERR_NONE);
+  node.rx("705#00");
+  CHECK(CONodeGetErr(&node.node) == CO_ERR_NODE_ID_TWICE);
+  node.trace();  // EMCY 8150h, where there is EMCY
+  CHECK(CONodeGetErr(&node.node) == CO_ERR_NONE);
+}
+
 TEST_CASE("CONodeGetErrText: entries in the wrong order are named in every configuration") {
   const std::string fault =
       std::string("CO_DICT_NOT_ASCENDING, object 2001h:00: ") + CODictFaultText(CO_DICT_NOT_ASCENDING);
@@ -142,6 +205,6 @@ TEST_CASE("CONodeGetErrText: a text that is too long is cut off; the longest one
 // The numbers must not change, because firmware logs them.
 static_assert(CO_DICT_NOT_ASCENDING == 1 && CO_DICT_NO_DATA == 3 && CO_DICT_WRONG_PLACE == 6);
 static_assert(CO_DICT_DIRECT_CONST == 9 && CO_DICT_PARA_OVERLAP == 12 && CO_DICT_MAP_LENGTH == last_fault);
-static_assert(CO_ERR_OBJ_RANGE_LOW == 0x15C && CO_ERR_NODE_SDO_BUF == last_error);
+static_assert(CO_ERR_OBJ_RANGE_LOW == 0x15C && CO_ERR_NODE_ID_TWICE == last_error);
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Receives frames with the identifier of the node's own error control messages (700h + node-ID).
+#include "base/error.hpp"
 #include "base/events.hpp"
 #include "base/routes.hpp"
 #include "service/guarding/guarding.hpp"
@@ -13,6 +14,7 @@ void init(CO_NODE& node) {
 }
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM&, uint16_t) {
+  error::report(node, CO_ERR_NODE_ID_TWICE);
   event::raise(node, event::Fault::collision, node.NodeId);
   return false;
 }

@@ -10,9 +10,9 @@ namespace co::guarding {
 // Adds the route of the node's error control identifier, and calls reset().
 void init(CO_NODE& node);
 
-// Processes a data frame with the node's error control identifier: another node has the same node-ID. Raises
-// event::Fault::collision. Returns false, because this service has no use for the frame: it counts as malformed unless
-// another service processes it. number: not used.
+// Processes a data frame with the node's error control identifier: another node has the same node-ID. Reports
+// CO_ERR_NODE_ID_TWICE and raises event::Fault::collision. Returns false, because this service has no use for the
+// frame: it counts as malformed unless another service processes it. number: not used.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 #if USE_GUARDING
