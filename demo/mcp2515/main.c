@@ -28,7 +28,6 @@ static CO_OBJ Dictionary[] = {
 };
 
 // The controller
-_Static_assert(CO_CAN_MCP2515_RATE_FITS(16000000, 500000, 16), "500 kbit/s");
 static const CO_CAN_MCP2515_RATE Rates[] = {CO_CAN_MCP2515_RATE_OF(16000000, 500000, 16)};
 static const CO_MCP2515_SPI Spi = {BoardSelect, BoardTransfer, BoardHasInterrupt};
 static CO_IF_FRM Frames[32];

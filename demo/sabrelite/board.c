@@ -18,10 +18,6 @@
 
 // Clock of the protocol engine of FlexCAN: PLL3 / 8 / 2, as after a reset
 #define CAN_HZ 30000000u
-_Static_assert(CO_CAN_FLEXCAN_RATE_FITS(CAN_HZ, 125000, 16), "125 kbit/s");
-_Static_assert(CO_CAN_FLEXCAN_RATE_FITS(CAN_HZ, 250000, 15), "250 kbit/s");
-_Static_assert(CO_CAN_FLEXCAN_RATE_FITS(CAN_HZ, 500000, 15), "500 kbit/s");
-_Static_assert(CO_CAN_FLEXCAN_RATE_FITS(CAN_HZ, 1000000, 15), "1 Mbit/s");
 static const CO_CAN_FLEXCAN_RATE Rates[] = {
     CO_CAN_FLEXCAN_RATE_OF(CAN_HZ, 125000, 16), CO_CAN_FLEXCAN_RATE_OF(CAN_HZ, 250000, 15),
     CO_CAN_FLEXCAN_RATE_OF(CAN_HZ, 500000, 15), CO_CAN_FLEXCAN_RATE_OF(CAN_HZ, 1000000, 15)};

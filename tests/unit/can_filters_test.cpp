@@ -194,6 +194,14 @@ TEST_CASE("bxCAN, M_CAN: the macros for C compute bit timings like the tables fo
   static_assert(CO_CAN_FDCAN_RATE_FITS(160000000, 500000, 160) && !CO_CAN_FDCAN_RATE_FITS(170000000, 1000000, 160));
   CHECK(fdcan.Timing == 0x26018A13);  // prescaler 2, segments 139 and 20, jump 20
   CHECK(co::fdcan_rates<160000000, 500000>[0].Timing == 0x26018A13);
+  for (const std::uint32_t baud : co::cia_bit_rates) {  // the table of docs/drivers/fdcan.md
+    CAPTURE(baud);
+    const unsigned quanta_of_80_mhz = baud == 1000000 ? 80 : baud == 800000 ? 100 : 160;
+    CHECK(CO_CAN_FDCAN_RATE_FITS(80000000U, baud, quanta_of_80_mhz));
+    CHECK(CO_CAN_FDCAN_RATE_FITS(160000000U, baud, baud == 800000 ? 200U : 160U));
+    CHECK(CO_CAN_FDCAN_RATE_FITS(170000000U, baud, 170U) == (baud != 800000));
+  }
+  CHECK(co::find_bit_timing(170000000, 800000, co::fdcan_limits).prescaler == 0);
 }
 
 }  // namespace

@@ -13,9 +13,8 @@
 ///
 /// The board must enable the clock of the controller (of CAN2: also that of CAN1), its pins and the three interrupts
 /// TX, RX0 and SCE, with one priority, before CONodeInit(). The bit timings that the node may use (also by LSS) are a
-/// table. In C++ bxcan_rates.hpp computes and checks it; in C macros do, with a given number of quanta per bit:
-///
-///     _Static_assert(CO_CAN_BXCAN_RATE_FITS(36000000, 500000, 18), "500 kbit/s");
+/// table. In C++ bxcan_rates.hpp computes and checks it; in C the macro CO_CAN_BXCAN_RATE_OF() does, with a given
+/// number of quanta per bit.
 ///
 /// With a rate that is not in the table, the controller stays off the bus: Send returns -1.
 ///
@@ -80,10 +79,12 @@ typedef struct CO_CAN_BXCAN_RATE_T {
 /// \{
 
 /// Initialises a CO_CAN_BXCAN_RATE; the sample point is as near to 87.5 % as these quanta allow.
-#define CO_CAN_BXCAN_RATE_OF(clock, baud, quanta)                                                               \
-  {                                                                                                             \
-    (baud), ((CO_CAN_BXCAN_SEGMENT2(quanta) - 1u) << 24) | ((CO_CAN_BXCAN_SEGMENT2(quanta) - 1u) << 20) |       \
-                ((CO_CAN_BXCAN_SEGMENT1(quanta) - 1u) << 16) | ((uint32_t)((clock) / ((baud) * (quanta))) - 1u) \
+/// Does not compile (array with negative size) if the macro …_FITS() for the same values is false.
+#define CO_CAN_BXCAN_RATE_OF(clock, baud, quanta)                                                           \
+  {                                                                                                         \
+    (baud) * (uint32_t)sizeof(char[CO_CAN_BXCAN_RATE_FITS(clock, baud, quanta) ? 1 : -1]),                  \
+        ((CO_CAN_BXCAN_SEGMENT2(quanta) - 1u) << 24) | ((CO_CAN_BXCAN_SEGMENT2(quanta) - 1u) << 20) |       \
+            ((CO_CAN_BXCAN_SEGMENT1(quanta) - 1u) << 16) | ((uint32_t)((clock) / ((baud) * (quanta))) - 1u) \
   }
 /// True if this timing is exact, its sample point is allowed by CiA 301, and the controller supports it.
 #define CO_CAN_BXCAN_RATE_FITS(clock, baud, quanta)                                                             \

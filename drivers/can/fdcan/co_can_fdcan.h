@@ -18,9 +18,7 @@
 ///
 /// The board must enable the bus clock and the kernel clock of the controller, its pins and interrupt line 0 before
 /// CONodeInit(). The bit timings that the node may use (also by LSS) are a table. In C++ fdcan_rates.hpp computes and
-/// checks it; in C macros do, with a given number of quanta per bit:
-///
-///     _Static_assert(CO_CAN_FDCAN_RATE_FITS(170000000, 500000, 20), "500 kbit/s");
+/// checks it; in C the macro CO_CAN_FDCAN_RATE_OF() does, with a given number of quanta per bit.
 ///
 /// With a rate that is not in the table, the controller stays off the bus: Send returns -1.
 ///
@@ -97,10 +95,12 @@ typedef struct CO_CAN_FDCAN_RATE_T {
 /// \{
 
 /// Initialises a CO_CAN_FDCAN_RATE; the sample point is as near to 87.5 % as these quanta allow.
-#define CO_CAN_FDCAN_RATE_OF(clock, baud, quanta)                                                                     \
-  {                                                                                                                   \
-    (baud), ((CO_CAN_FDCAN_SEGMENT2(quanta) - 1u) << 25) | (((uint32_t)((clock) / ((baud) * (quanta))) - 1u) << 16) | \
-                ((CO_CAN_FDCAN_SEGMENT1(quanta) - 1u) << 8) | (CO_CAN_FDCAN_SEGMENT2(quanta) - 1u)                    \
+/// Does not compile (array with negative size) if the macro …_FITS() for the same values is false.
+#define CO_CAN_FDCAN_RATE_OF(clock, baud, quanta)                                                                 \
+  {                                                                                                               \
+    (baud) * (uint32_t)sizeof(char[CO_CAN_FDCAN_RATE_FITS(clock, baud, quanta) ? 1 : -1]),                        \
+        ((CO_CAN_FDCAN_SEGMENT2(quanta) - 1u) << 25) | (((uint32_t)((clock) / ((baud) * (quanta))) - 1u) << 16) | \
+            ((CO_CAN_FDCAN_SEGMENT1(quanta) - 1u) << 8) | (CO_CAN_FDCAN_SEGMENT2(quanta) - 1u)                    \
   }
 /// True if this timing is exact, its sample point is allowed by CiA 301, and the controller supports it.
 #define CO_CAN_FDCAN_RATE_FITS(clock, baud, quanta)                                                           \

@@ -13,9 +13,7 @@
 ///
 /// The board must enable the clocks of the controller, its pins and its interrupts, with one priority, before
 /// CONodeInit(). The bit timings that the node may use (also by LSS) are a table. In C++ flexcan_rates.hpp computes and
-/// checks it; in C macros do, with a given number of quanta per bit:
-///
-///     _Static_assert(CO_CAN_FLEXCAN_RATE_FITS(40000000, 500000, 16), "500 kbit/s");
+/// checks it; in C the macro CO_CAN_FLEXCAN_RATE_OF() does, with a given number of quanta per bit.
 ///
 /// With a rate that is not in the table, the controller stays off the bus: Send returns -1.
 ///
@@ -94,9 +92,10 @@ typedef enum CO_CAN_FLEXCAN_RECEIVE_T {
 /// \{
 
 /// Initialises a CO_CAN_FLEXCAN_RATE; the sample point is as near to 87.5 % as these quanta allow.
+/// Does not compile (array with negative size) if the macro …_FITS() for the same values is false.
 #define CO_CAN_FLEXCAN_RATE_OF(clock, baud, quanta)                                                                 \
   {                                                                                                                 \
-    (baud),                                                                                                         \
+    (baud) * (uint32_t)sizeof(char[CO_CAN_FLEXCAN_RATE_FITS(clock, baud, quanta) ? 1 : -1]),                        \
         (((uint32_t)((clock) / ((baud) * (quanta))) - 1u) << 24) | ((CO_CAN_FLEXCAN_SEGMENT2(quanta) - 1u) << 22) | \
             ((CO_CAN_FLEXCAN_PHASE1(quanta) - 1u) << 19) | ((CO_CAN_FLEXCAN_SEGMENT2(quanta) - 1u) << 16) |         \
             (CO_CAN_FLEXCAN_SEGMENT1(quanta) - CO_CAN_FLEXCAN_PHASE1(quanta) - 1u),                                 \

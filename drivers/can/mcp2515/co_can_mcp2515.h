@@ -11,10 +11,8 @@
 ///     void EXTI0_IRQHandler(void) { ...  COCanMcp2515Interrupt(&can); }  // falling edge of INT
 ///
 /// The board must initialise SPI (mode 0,0, at most 10 MHz) and the pins before CONodeInit(). The bit timings that the
-/// node may use (also by LSS) are a table. In C++ mcp2515_rates.hpp computes and checks it; in C macros do, with a
-/// given number of quanta per bit:
-///
-///     _Static_assert(CO_CAN_MCP2515_RATE_FITS(16000000, 500000, 16), "500 kbit/s");
+/// node may use (also by LSS) are a table. In C++ mcp2515_rates.hpp computes and checks it; in C the macro
+/// CO_CAN_MCP2515_RATE_OF() does, with a given number of quanta per bit.
 ///
 /// With a rate that is not in the table, or if the controller does not answer, Send returns -1.
 ///
@@ -99,10 +97,12 @@ typedef struct CO_CAN_MCP2515_RATE_T {
 /// \{
 
 /// Initialises a CO_CAN_MCP2515_RATE; the sample point is as near to 87.5 % as these quanta allow.
-#define CO_CAN_MCP2515_RATE_OF(clock, baud, quanta)                                                                  \
-  {                                                                                                                  \
-    (baud), CO_CAN_MCP2515_TIMING((clock) / (2u * (baud) * (quanta)), (quanta)-1u - CO_CAN_MCP2515_SEGMENT2(quanta), \
-                                  CO_CAN_MCP2515_SEGMENT2(quanta), CO_CAN_MCP2515_SEGMENT2(quanta) - 1u)             \
+/// Does not compile (array with negative size) if the macro …_FITS() for the same values is false.
+#define CO_CAN_MCP2515_RATE_OF(clock, baud, quanta)                                                              \
+  {                                                                                                              \
+    (baud) * (uint32_t)sizeof(char[CO_CAN_MCP2515_RATE_FITS(clock, baud, quanta) ? 1 : -1]),                     \
+        CO_CAN_MCP2515_TIMING((clock) / (2u * (baud) * (quanta)), (quanta)-1u - CO_CAN_MCP2515_SEGMENT2(quanta), \
+                              CO_CAN_MCP2515_SEGMENT2(quanta), CO_CAN_MCP2515_SEGMENT2(quanta) - 1u)             \
   }
 /// True if this timing is exact, its sample point is allowed by CiA 301, and the controller supports it.
 #define CO_CAN_MCP2515_RATE_FITS(clock, baud, quanta)                                               \

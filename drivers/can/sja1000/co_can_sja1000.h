@@ -16,9 +16,7 @@
 /// PCI cards with further registers, or a multiplexed bus.
 ///
 /// The bit timings that the node may use (also by LSS) are a table. In C++ sja1000_rates.hpp computes and checks it; in
-/// C macros do, with a given number of quanta per bit:
-///
-///     _Static_assert(CO_CAN_SJA1000_RATE_FITS(16000000, 500000, 16), "500 kbit/s");
+/// C the macro CO_CAN_SJA1000_RATE_OF() does, with a given number of quanta per bit.
 ///
 /// With a rate that is not in the table, the controller stays off the bus: Send returns -1.
 ///
@@ -76,8 +74,12 @@ extern const CO_SJA1000_ACCESS Sja1000Memory;
 /// \{
 
 /// Initialises a CO_CAN_SJA1000_RATE; the sample point is as near to 87.5 % as these quanta allow.
-#define CO_CAN_SJA1000_RATE_OF(clock, baud, quanta) \
-  { (baud), CO_CAN_SJA1000_TIMING(clock, baud, quanta, CO_SJA1000_BTR0_SJW_SHIFT) }
+/// Does not compile (array with negative size) if the macro …_FITS() for the same values is false.
+#define CO_CAN_SJA1000_RATE_OF(clock, baud, quanta)                                          \
+  {                                                                                          \
+    (baud) * (uint32_t)sizeof(char[CO_CAN_SJA1000_RATE_FITS(clock, baud, quanta) ? 1 : -1]), \
+        CO_CAN_SJA1000_TIMING(clock, baud, quanta, CO_SJA1000_BTR0_SJW_SHIFT)                \
+  }
 /// True if this timing is exact, its sample point is allowed by CiA 301, and the controller supports it.
 #define CO_CAN_SJA1000_RATE_FITS(clock, baud, quanta) CO_CAN_SJA1000_FITS(clock, baud, quanta, 64)
 /// \}

@@ -10,11 +10,10 @@
 ///     void CAN0_IRQHandler(void) { COCanZynqmpInterrupt(&can0); }  // GIC: 55 (CAN0), 56 (CAN1) of ZynqMP, level
 ///
 /// The board must set up clock, reset and pins of the controller before CONodeInit(). The bit timings that the node may
-/// use (also by LSS) are a table. In C++ zynqmp_rates.hpp computes and checks it; in C macros do, with a given number
-/// of quanta per bit (16 where clock / rate is a multiple of it):
+/// use (also by LSS) are a table. In C++ zynqmp_rates.hpp computes and checks it; in C the macro
+/// CO_CAN_ZYNQMP_RATE_OF() does, with a given number of quanta per bit (16 where clock / rate is a multiple of it).
 ///
 ///     static const CO_CAN_ZYNQMP_RATE rates[] = {CO_CAN_ZYNQMP_RATE_OF(24000000, 500000, 16)};
-///     _Static_assert(CO_CAN_ZYNQMP_RATE_FITS(24000000, 500000, 16), "500 kbit/s");
 ///
 /// With a rate that is not in the table, the controller stays off the bus: Send returns -1.
 ///
@@ -67,9 +66,11 @@ typedef struct CO_CAN_ZYNQMP_RATE_T {
 /// \{
 
 /// Initialises a CO_CAN_ZYNQMP_RATE. The sample point is as near to 87.5 % as these quanta allow.
+/// Does not compile (array with negative size) if the macro …_FITS() for the same values is false.
 #define CO_CAN_ZYNQMP_RATE_OF(clock, baud, quanta)                                                               \
   {                                                                                                              \
-    (baud), (uint16_t)((clock) / ((baud) * (quanta)) - 1u),                                                      \
+    (baud) * (uint32_t)sizeof(char[CO_CAN_ZYNQMP_RATE_FITS(clock, baud, quanta) ? 1 : -1]),                      \
+        (uint16_t)((clock) / ((baud) * (quanta)) - 1u),                                                          \
         (uint16_t)(((CO_CAN_ZYNQMP_SEGMENT2(quanta) - 1u) << 7) | ((CO_CAN_ZYNQMP_SEGMENT2(quanta) - 1u) << 4) | \
                    (CO_CAN_ZYNQMP_SEGMENT1(quanta) - 1u))                                                        \
   }
