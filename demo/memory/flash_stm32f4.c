@@ -2,7 +2,7 @@
 // Parameters in sectors 1 and 2 (16 KB each) of an STM32F4. Source: RM0090, 3.5 (STM32F405 to 439) and 3.9 (registers).
 // The linker script keeps these sectors free: the vector table is in sector 0, the program begins in sector 3.
 #include "flash_access.h"
-#include "memory.h"
+#include "flash_stm32.h"
 
 #define FLASH_ACR 0x40023C00u
 #define FLASH_KEYR 0x40023C04u

@@ -2,7 +2,7 @@
 // Parameters in the last two pages of each bank of an STM32G4 with 512 KB and two banks (DBANK = 1): pages of 2 KB,
 // programmed in double words with an error-correcting code. Source: RM0440, 3.3 and 3.7 (registers).
 #include "flash_access.h"
-#include "memory.h"
+#include "flash_stm32.h"
 
 #define FLASH_ACR 0x40022000u
 #define FLASH_KEYR 0x40022008u

@@ -2,7 +2,7 @@
 // Parameters in the last sector of each bank of an STM32H743 with 2 MB: sectors of 128 KB, programmed in words of 256
 // bits with an error-correcting code. Source: RM0433, 4.3 and 4.9 (registers); ARM DDI 0403, B3.2.8 (BFHFNMIGN).
 #include "flash_access.h"
-#include "memory.h"
+#include "flash_stm32.h"
 
 // Registers of bank 1; those of bank 2 are 100h behind them.
 #define FLASH_KEYR 0x52002004u
