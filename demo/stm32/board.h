@@ -22,6 +22,9 @@ void BoardStart(void);
 /// Switches the LED of the board.
 void BoardLed(bool on);
 
+/// Blinks the LED five to ten times a second and does not return. A product lets its watchdog reset the board.
+void BoardBlink(void);
+
 /// Calls the interrupt function of the CAN driver.
 void BoardCanInterrupt(void);
 
@@ -39,11 +42,14 @@ static inline void BoardEnableInterrupt(unsigned number) {
   BOARD_REGISTER(0xE000E100u + 4u * (number / 32u)) = 1u << number % 32u;
 }
 
-/// Waits until bits of a register are set. A clock that does not start ends here: the watchdog of a product resets the
-/// board.
+/// Waits until bits of a register are set, and calls BoardBlink() after about 0.2 s without them: a clock does not start.
 static inline void BoardAwait(uint32_t address, uint32_t bits) {
-  while ((BOARD_REGISTER(address) & bits) != bits) {
+  for (uint32_t n = 0; n < 200000u; ++n) {
+    if ((BOARD_REGISTER(address) & bits) == bits) {
+      return;
+    }
   }
+  BoardBlink();
 }
 
 /// Changes bits of a register.

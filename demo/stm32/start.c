@@ -18,6 +18,15 @@ void Start(void) {
   (void)main();
 }
 
+// The CPU runs with its internal oscillator of 8 or 16 MHz.
+void BoardBlink(void) {
+  for (bool on = true;; on = !on) {
+    BoardLed(on);
+    for (volatile uint32_t n = 0; n < 100000u; n = n + 1) {
+    }
+  }
+}
+
 static void Fault(void) {
   for (;;) {
   }

@@ -1,19 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 about="demo/stm32: a node for three boards with an STM32 compiles without a warning and fits their memories; demo/memory"
 minutes=1
-packages=("${build_packages[@]}" "${arm_packages[@]}" make python3)
+packages=("${build_packages[@]}" "${arm_packages[@]}" make python3 qemu-system-arm)
 
 lane() {
   run_pages
   local source=demo/stm32
   build_tree stm32-nucleo_f446re --toolchain "$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_PRESET=slave \
-    -DLEXICAN_CPU=cortex-m4 -DLEXICAN_BOARD=nucleo_f446re && pass
+    -DLEXICAN_CPU=cortex-m4 -DLEXICAN_BOARD=nucleo_f446re && pass &&
+    check "an oscillator that does not start: the LED blinks" blinks_without_oscillator "$build/stm32-nucleo_f446re/node.elf"
   compile_memory flash_stm32f4 cortex-m4 flash_pages
   compile_memory flash_stm32g4 cortex-m4 flash_pages
   compile_memory flash_stm32h7 cortex-m7 flash_pages
   compile_memory eeprom_i2c_pins cortex-m0 flash_pages eeprom_i2c eeprom_spi
   compile_memory eeprom_spi_pins cortex-m0 flash_pages eeprom_i2c eeprom_spi
   compile_memory node cortex-m0
+}
+
+# Runs the firmware of nucleo_f446re on QEMU's STM32F405, which has no RCC: GPIOA_BSRR sets and resets PA5.
+blinks_without_oscillator() {  # FIRMWARE
+  local said=$results/stm32-blinks.log
+  timeout 3 qemu-system-arm -M netduinoplus2 -nographic -monitor none -serial none -kernel "$1" -d unimp -D "$said"
+  grep -q 'GPIOA.*write.*0x018, value 0x00000020' "$said" && grep -q 'GPIOA.*write.*0x018, value 0x00200000' "$said"
 }
 
 compile_memory() {  # SOURCE CPU DRIVER...

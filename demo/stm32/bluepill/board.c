@@ -50,8 +50,8 @@ static void StartPins(void) {
 }
 
 void BoardStart(void) {
+  StartPins();  // BoardBlink() needs the LED
   StartClocks();
-  StartPins();
   BoardChange(RCC_APB1ENR, 0, 1u << 25);
   BoardEnableInterrupt(19);  // CAN1_TX
   BoardEnableInterrupt(20);  // CAN1_RX0

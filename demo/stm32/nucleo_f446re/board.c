@@ -53,8 +53,8 @@ static void StartPins(void) {
 }
 
 void BoardStart(void) {
+  StartPins();  // BoardBlink() needs the LED
   StartClocks();
-  StartPins();
   BoardChange(RCC_APB1ENR, 0, 1u << 25);
   (void)BOARD_REGISTER(RCC_APB1ENR);
   BoardEnableInterrupt(19);  // CAN1_TX

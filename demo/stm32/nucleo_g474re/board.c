@@ -55,8 +55,8 @@ static void StartPins(void) {
 }
 
 void BoardStart(void) {
+  StartPins();  // BoardBlink() needs the LED
   StartClocks();
-  StartPins();
   BoardChange(RCC_APB1ENR1, 0, 1u << 25);
   (void)BOARD_REGISTER(RCC_APB1ENR1);
   Can.Registers = CO_CAN_FDCAN_1;
