@@ -42,7 +42,8 @@ static inline void BoardEnableInterrupt(unsigned number) {
   BOARD_REGISTER(0xE000E100u + 4u * (number / 32u)) = 1u << number % 32u;
 }
 
-/// Waits until bits of a register are set, and calls BoardBlink() after about 0.2 s without them: a clock does not start.
+/// Waits until bits of a register are set, and calls BoardBlink() after about 0.2 s without them: a clock does not
+/// start.
 static inline void BoardAwait(uint32_t address, uint32_t bits) {
   for (uint32_t n = 0; n < 200000u; ++n) {
     if ((BOARD_REGISTER(address) & bits) == bits) {
