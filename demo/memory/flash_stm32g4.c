@@ -96,5 +96,6 @@ static bool ReadBytes(void* ctx, uint32_t address, void* to, uint32_t size) {
 }
 
 static const CO_FLASH_ACCESS Access = {ErasePage, ProgramDoubleWord, ReadBytes};
-static const CO_FLASH_REGION Pages[] = {{0x0803F000u, 2048u, 126u, 2u}, {0x0807F000u, 2048u, 254u, 2u}};
+// The first pages are those of bank 2, so that a program in bank 1 continues to run while they are erased.
+static const CO_FLASH_REGION Pages[] = {{0x0807F000u, 2048u, 254u, 2u}, {0x0803F000u, 2048u, 126u, 2u}};
 const CO_FLASH_PAGES FlashStm32g4 = {&Access, NULL, Pages, 2, 8};

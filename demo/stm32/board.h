@@ -5,6 +5,7 @@
 #define BOARD_H_
 
 #include "co_if_can.h"
+#include "co_if_nvm.h"
 
 /// Number of entries of the vector table behind the 16 of the CPU.
 #define BOARD_INTERRUPTS 32
@@ -15,6 +16,8 @@
 extern const uint32_t BoardHz;  ///< clock of the CPU
 extern const CO_IF_CAN_DRV_EX* const BoardCan;
 extern void* const BoardCanContext;
+extern const CO_IF_NVM_DRV_EX* const BoardMemory;  ///< null: the board stores no parameters
+extern void* const BoardMemoryContext;
 
 /// Sets up clocks, pins and the interrupts of the CAN controller. Called first in main().
 void BoardStart(void);
@@ -30,6 +33,9 @@ void BoardCanInterrupt(void);
 
 /// Returns true if received frames wait until they are read.
 bool BoardCanHasFrames(void);
+
+/// Handles the NMI. A board defines it if its memory needs it; the one of start.c stops the program.
+void NmiHandler(void);
 
 /// \name Interrupts, defined by main.c
 /// \{

@@ -1,21 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // A node with node-ID 5 at 500 kbit/s: SDO server, heartbeat, a TPDO with a counter, an LED that SDO and an RPDO
-// switch. It leaves bus-off half a second after it has occurred.
+// switch. It leaves bus-off half a second after it has occurred. "save" (1010h) stores the times of heartbeat and TPDO,
+// if the board has a memory.
 #include "board.h"
 #include "co_core.h"
 #include "co_timer_systick.h"
 
-// Variables of the object dictionary
+typedef struct PARAMETERS {
+  uint16_t HeartbeatTime;  // ms
+  uint16_t EventTime;      // of the TPDO, ms
+} PARAMETERS;
+
+static PARAMETERS Parameters;
+static const PARAMETERS Defaults = {1000, 1000};
+static const CO_PARA Group = {.Offset = 0,
+                              .Size = sizeof(Parameters),
+                              .Start = (uint8_t*)&Parameters,
+                              .Default = (uint8_t*)&Defaults,
+                              .Type = CO_RESET_COM,
+                              .Value = CO_PARA___E};
+
+// Other variables of the object dictionary
 static uint8_t ErrorRegister;
-static uint16_t HeartbeatTime = 1000;  // ms
-static uint16_t EventTime = 1000;      // of the TPDO, ms
 static uint32_t Seconds;
 static uint8_t Led;
 
 static const CO_OBJ Dictionary[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},  // device type: no profile
     {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, (CO_DATA)(&ErrorRegister)},
-    {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&HeartbeatTime)},
+    {CO_KEY(0x1010, 0, CO_OBJ_D___R_), CO_TPARA_STORE, (CO_DATA)(1)},
+    {CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, (CO_DATA)(&Group)},
+    {CO_KEY(0x1011, 0, CO_OBJ_D___R_), CO_TPARA_RESTORE, (CO_DATA)(1)},
+    {CO_KEY(0x1011, 1, CO_OBJ_____RW), CO_TPARA_RESTORE, (CO_DATA)(&Group)},
+    {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&Parameters.HeartbeatTime)},
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},  // vendor-ID: get one from CiA
     // RPDO 1, received at 200h + node-ID
@@ -28,7 +45,7 @@ static const CO_OBJ Dictionary[] = {
     {CO_KEY(0x1800, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(5)},
     {CO_KEY(0x1800, 1, CO_OBJ_DN__R_), CO_TPDO_ID, (CO_DATA)(CO_COBID_TPDO_DEFAULT(0))},
     {CO_KEY(0x1800, 2, CO_OBJ_D___R_), CO_TPDO_TYPE, (CO_DATA)(254)},
-    {CO_KEY(0x1800, 5, CO_OBJ_____RW), CO_TPDO_EVENT, (CO_DATA)(&EventTime)},
+    {CO_KEY(0x1800, 5, CO_OBJ_____RW), CO_TPDO_EVENT, (CO_DATA)(&Parameters.EventTime)},
     {CO_KEY(0x1A00, 0, CO_OBJ_D___R_), CO_TPDO_NUM, (CO_DATA)(1)},
     {CO_KEY(0x1A00, 1, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x2000, 0, 32))},
     {CO_KEY(0x2000, 0, CO_OBJ____PR_), CO_TUNSIGNED32, (CO_DATA)(&Seconds)},
@@ -103,6 +120,8 @@ int main(void) {
   spec.SdoBuf = SdoBuffer;
   drivers.Can = BoardCan;
   drivers.CanCtx = BoardCanContext;
+  drivers.Nvm = BoardMemory;
+  drivers.NvmCtx = BoardMemoryContext;
   drivers.SdoBufLen = SdoBufferLen;
   CONodeInitEx(&Node, &spec, &drivers);
   (void)COTmrCreate(&Node.Tmr, 1000000, 1000000, CountSecond, NULL);

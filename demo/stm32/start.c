@@ -32,13 +32,15 @@ static void Fault(void) {
   }
 }
 
+__attribute__((weak)) void NmiHandler(void) { Fault(); }
+
 typedef void (*VECTOR)(void);
 
 // Numbers of the interrupts in all three controllers: 19 CAN TX, 20 CAN RX0, 21 FDCAN1 line 0, 22 CAN SCE.
 __attribute__((section(".vectors"), used)) static const VECTOR Vectors[16 + BOARD_INTERRUPTS] = {
     (VECTOR)(uintptr_t)StackTop,
     Start,
-    Fault,  // NMI
+    NmiHandler,
     Fault,
     Fault,
     Fault,

@@ -28,6 +28,8 @@ static CO_CAN_BXCAN Can = {
 const uint32_t BoardHz = 72000000;
 const CO_IF_CAN_DRV_EX* const BoardCan = &BxcanCanDriver;
 void* const BoardCanContext = &Can;
+const CO_IF_NVM_DRV_EX* const BoardMemory = NULL;
+void* const BoardMemoryContext = NULL;
 
 // 72 MHz from the crystal; APB1, and with it the CAN controller, has 36 MHz.
 static void StartClocks(void) {

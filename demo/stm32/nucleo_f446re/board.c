@@ -4,6 +4,7 @@
 #include "board.h"
 
 #include "co_can_bxcan.h"
+#include "flash_stm32.h"
 
 #define RCC_CR 0x40023800u
 #define RCC_PLLCFGR 0x40023804u
@@ -29,6 +30,8 @@ static CO_CAN_BXCAN Can = {
 const uint32_t BoardHz = 168000000;
 const CO_IF_CAN_DRV_EX* const BoardCan = &BxcanCanDriver;
 void* const BoardCanContext = &Can;
+const CO_IF_NVM_DRV_EX* const BoardMemory = &FlashPagesNvmDriver;
+void* const BoardMemoryContext = (void*)&FlashStm32f4;
 
 // 168 MHz from 8 MHz; APB1, and with it the CAN controllers, has 42 MHz.
 static void StartClocks(void) {

@@ -4,6 +4,7 @@
 #include "board.h"
 
 #include "co_can_fdcan.h"
+#include "flash_stm32.h"
 
 #define RCC_CR 0x40021000u
 #define RCC_CFGR 0x40021008u
@@ -29,6 +30,8 @@ static CO_CAN_FDCAN Can;
 const uint32_t BoardHz = 170000000;
 const CO_IF_CAN_DRV_EX* const BoardCan = &FdcanCanDriver;
 void* const BoardCanContext = &Can;
+const CO_IF_NVM_DRV_EX* const BoardMemory = &FlashPagesNvmDriver;
+void* const BoardMemoryContext = (void*)&FlashStm32g4;
 
 // 170 MHz from the crystal, in range 1 boost mode of the regulator [RM0440, 6.1.5]. The CAN controller has the clock of
 // the crystal, 24 MHz, so that all its bit rates are exact.
@@ -75,6 +78,9 @@ void BoardStart(void) {
 }
 
 void BoardLed(bool on) { BOARD_REGISTER(GPIOA_BSRR) = on ? 1u << 5 : 1u << 21; }
+
+// A double word of the flash whose programming a loss of power has interrupted was read.
+void NmiHandler(void) { FlashStm32g4Nmi(); }
 
 void BoardCanInterrupt(void) { COCanFdcanInterrupt(&Can); }
 
