@@ -21,9 +21,14 @@ lane() {
 # Runs the firmware of nucleo_f446re on QEMU's STM32F405, which has no RCC: GPIOA_BSRR sets and resets PA5.
 blinks_without_oscillator() {  # FIRMWARE
   local said=$results/stm32-blinks.log
-  timeout 3 qemu-system-arm -M netduinoplus2 -nographic -monitor none -serial none -kernel "$1" -d unimp -D "$said"
-  grep -q 'GPIOA.*write.*0x018, value 0x00000020' "$said" && grep -q 'GPIOA.*write.*0x018, value 0x00200000' "$said"
+  qemu-system-arm -M netduinoplus2 -nographic -monitor none -serial none -kernel "$1" -d unimp -D "$said" &
+  local emulator=$! tries=600
+  until has_blinked "$said" || [ $((tries -= 1)) -eq 0 ]; do sleep 0.1; done
+  kill $emulator
+  has_blinked "$said"
 }
+
+has_blinked() { grep -q 'GPIOA.*write.*0x018, value 0x00000020' "$1" && grep -q 'GPIOA.*write.*0x018, value 0x00200000' "$1"; }
 
 compile_memory() {  # SOURCE CPU DRIVER...
   local driver drivers=()

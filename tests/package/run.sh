@@ -23,12 +23,28 @@ build_and_refuse() {
   ! grep -i warning "$directory/said"
 }
 
-by_cmake() {
-  cmake --no-warn-unused-cli -S "$here/$way" -B "$directory" -G Ninja -DCONSUMER_LANGUAGE="$language" -DCONSUMER_SOURCE="$program" \
+by_cmake() {  # [LANGUAGES]
+  cmake --no-warn-unused-cli -S "$here/$way" -B "$directory" -G Ninja -DCONSUMER_LANGUAGE="${1:-$language}" -DCONSUMER_SOURCE="$program" \
     -DLEXICAN_SOURCE="$source" -DCMAKE_PREFIX_PATH="$prefix"
   cmake --build "$directory"
   # Nothing of ours but the library gets into a user's build.
   [ -z "$(find "$directory" -name 'lexican_*' -o -name 'lexican-demo*')" ]
+}
+
+# A C program on the virtual bus, by CMake and by the command lines of docs/integrate.md.
+with_drivers() {
+  program=$source/demo/first_node/first_node.c
+  by_cmake "C;CXX"
+  "$directory/consumer" >"$directory/said"
+  grep -x ' 500 ms, node 5: 705 7F' "$directory/said"
+  local flags drivers
+  export PKG_CONFIG_PATH=$library/pkgconfig
+  read -ra flags < <(pkg-config --cflags --libs lexican)
+  drivers=$(pkg-config --variable=drivers lexican)
+  flags=(-I "$drivers/can/virtual_bus" -I "$drivers/timer/software" "${flags[@]}")
+  "${compiler[@]}" -c "$program" "${flags[@]}" -o "$directory/first_node.o"
+  g++ -std=c++17 "$directory/first_node.o" "$drivers"/{can/virtual_bus,timer/software}/*.cpp "${flags[@]}" -o "$directory/consumer"
+  "$directory/consumer" | diff "$directory/said" -
 }
 
 library=$(dirname "$(find "$prefix" -name liblexican.a)")
@@ -41,11 +57,12 @@ case $way in
   bare_compiler)
     build_and_refuse "${compiler[@]}" -I "$prefix/include/lexican" -L "$library" "$program" -llexican
     ;;
+  drivers) with_drivers ;;
   *) by_cmake ;;
 esac
 timeout 10 "$directory/consumer"
 
 # A C program needs no C++ run time; by find_package and without CMake it does not even get it.
-if [ "$language" = C ] && [ "$way" != add_subdirectory ] && [ "$way" != fetch_content ]; then
+if [ "$language" = C ] && [ "$way" != add_subdirectory ] && [ "$way" != fetch_content ] && [ "$way" != drivers ]; then
   ! ldd "$directory/consumer" | grep -F libstdc++
 fi
