@@ -8,6 +8,7 @@ reference_pages=(index co__csdo_8h co__cfg_8h structCO__NODE__T classco_1_1Virtu
 lane() {
   local site=$build/site
   check "the site builds without a warning" "$root/docs/run" --build || return
+  check "a port in use is refused in one line" port_in_use_is_refused
   run_tap python3 "$root/docs/site/check.py" "$site/html"
   run_tap python3 "$root/tests/system/commands.py" "$root"
   check "found: a command that no lane runs" unrun_command
@@ -30,6 +31,20 @@ lane() {
   rm -rf "$results/site"
   local pages=("${reference_pages[@]/%/.html}")
   run_tap "$root/docs/site/screenshots.py" "$site/html" "$results/site" "${pages[@]/#/reference/}"
+}
+
+port_in_use_is_refused() {
+  python3 - "$root/docs/run" <<'END'
+import socket
+import subprocess
+import sys
+
+with socket.create_server(("127.0.0.1", 0)) as server:
+    port = server.getsockname()[1]
+    run = subprocess.run([sys.argv[1], "--port", str(port)], capture_output=True, text=True)
+print(run.stdout + run.stderr)
+sys.exit(run.returncode != 1 or run.stderr.count("\n") != 1 or f"port {port} is in use" not in run.stderr)
+END
 }
 
 # Draws a good page and faulty ones: the faults must be found.
