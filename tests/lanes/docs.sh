@@ -23,10 +23,12 @@ lane() {
     $'/// A\nenum A { a };'; do
     check "found: no comment in: ${symbol//$'\n'/ }" undocumented '/// \file planted.hpp' '/// A header.' '' "$symbol"
   done
-  check "found: a function without list of results" without_results '/// \file planted.h' '/// A header.' '' \
+  check "found: a function without list of results" refused_reference ' has no list of ' '/// \file planted.h' '/// A header.' '' \
     '/// A function.' 'CO_ERR a();'
   check "a list of results is accepted" reference_of planted.h '/// \file planted.h' '/// A header.' '' '/// A function.' \
     '/// \retval CO_ERR_NONE  success' 'CO_ERR a();'
+  check "found: a result within a line" refused_reference ' within a line' '/// \file planted.h' '/// A header.' '' \
+    '/// A function. \retval CO_ERR_NONE  success' '/// \retval CO_ERR_BAD_ARG  an argument' 'CO_ERR a();'
   draw_planted_pages
   rm -rf "$results/site"
   local pages=("${reference_pages[@]/%/.html}")
@@ -84,9 +86,9 @@ reference_of() {  # NAME LINE...
   "$root/docs/site/reference.sh" "$root" "$results/reference" "$results/$1"
 }
 
-without_results() {  # LINE...
+refused_reference() {  # TEXT LINE...
   local said
-  ! said=$(reference_of planted.h "$@" 2>&1) && grep ' has no list of ' <<<"$said"
+  ! said=$(reference_of planted.h "${@:2}" 2>&1) && grep -- "$1" <<<"$said"
 }
 
 undocumented() {  # LINE...
