@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """check.py HTML
 
-Checks the built site: no page and no style sheet loads anything from another machine, and links and pictures within the
-site exist. Prints "1..N" and a line "ok …" or "not ok …" for each page and style sheet.
+Checks the built site: no page and no style sheet loads anything from another machine, links and pictures within the site
+exist, and the search leads to existing places, also of the API reference. Prints "1..N" and a line "ok …" or "not ok …"
+for each page, style sheet and index of the search.
 """
+import json
 import re
 import sys
 from html.parser import HTMLParser
@@ -41,8 +43,23 @@ class Page(HTMLParser):
         return place.is_file() or (place / "index.html").is_file()
 
 
+def faults_of_search(index, root):
+    texts = {}  # of the pages, None: there is no such page
+    for place in (entry["location"] for entry in index["docs"]):
+        page, _, anchor = place.partition("#")
+        if page not in texts:
+            file = root / page / "index.html" if (root / page).is_dir() else root / page
+            texts[page] = file.read_text(encoding="utf-8") if file.is_file() else None
+        if texts[page] is None or (anchor and f'id="{anchor}"' not in texts[page]):
+            yield f"leads to {place}, which does not exist"
+    if not any(page.startswith("reference/") for page in texts):
+        yield "finds no symbol of the API reference"
+
+
 def faults_of(file, root):
     text = file.read_text(encoding="utf-8")
+    if file.suffix == ".json":
+        return list(faults_of_search(json.loads(text), root))
     if file.suffix == ".css":
         return [f"loads {url}" for url in re.findall(r"(?:url\(|@import\s+)[\"']?(https?://[^\"')]+)", text)]
     page = Page(file, root)
@@ -52,7 +69,7 @@ def faults_of(file, root):
 
 def main():
     root = Path(sys.argv[1])
-    files = sorted(p for p in root.rglob("*") if p.suffix in (".html", ".css"))
+    files = sorted(p for p in root.rglob("*") if p.suffix in (".html", ".css") or p.name == "search_index.json")
     print(f"1..{len(files)}")
     good = bool(files)
     for file in files:

@@ -14,6 +14,7 @@ lane() {
   check "found: a command that no lane runs" unrun_command
   check "found: a page that loads from elsewhere" planted '<script src="https://example.org/a.js"></script>'
   check "found: a link that leads nowhere" planted '<a href="../nowhere/">nowhere</a>'
+  check "found: a search that leads nowhere" planted '{"docs": [{"location": "reference/a.html#b"}]}' search_index.json
   check "the API reference accepts a documented header" reference '/// \file planted.hpp' '/// A header.' '' \
     'int a();  ///< returns 0'
   check "found: a header without comment" undocumented '/// A function.' 'int a();'
@@ -107,9 +108,9 @@ unrun_command() {
     grep '^not ok commands_not_run.txt: make something: no page has this command' "$pages/said"
 }
 
-planted() {  # HTML
+planted() {  # TEXT [FILE]
   rm -rf "$results/site-planted"
   mkdir -p "$results/site-planted"
-  echo "$1" >"$results/site-planted/index.html"
+  echo "$1" >"$results/site-planted/${2:-index.html}"
   ! python3 "$root/docs/site/check.py" "$results/site-planted"
 }
