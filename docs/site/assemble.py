@@ -3,9 +3,10 @@
 """assemble.py ROOT PAGES REFERENCE
 
 Copies the pages of the site to the directory PAGES, which must not exist: docs/, the pages of codict, the list of
-rules, the pages for contributors, and the API reference that reference.sh has made in REFERENCE. Links between them are
-adapted; a link to a header leads to its page of the API reference, a link to another file of the repository becomes its
-path. Pictures are drawn from docs/pictures/*.dot by Graphviz.
+rules, the pages for contributors, and the API reference that reference.sh has made in REFERENCE. Adds a page with the
+sources of each example program of demo/ that a page names. Links between pages are adapted; a link to a header leads to
+its page of the API reference, a link to another file of the repository becomes its path. Pictures are drawn from
+docs/pictures/*.dot by Graphviz.
 """
 import os.path
 import re
@@ -16,6 +17,9 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 FENCE = re.compile(r"^(```\w+) whole$", re.MULTILINE)
+PROGRAM = re.compile(r"(?<!\[)`(demo/[\w/.]+)`")
+# Names of source files of example programs, and their languages, in the order of a page.
+LANGUAGES = {"*.c": "c", "*.h": "c", "*.cpp": "cpp", "*.hpp": "cpp", "*.xdd": "xml", "CMakeLists.txt": "cmake", "makefile": "make"}
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
 
 
@@ -30,6 +34,8 @@ def pages_of(root):
     pages[Path("tests/conformance/RULES.md")] = Path("conformance.md")
     pages[Path("CONTRIBUTING.md")] = Path("contributing.md")
     pages[Path("tests/README.md")] = Path("tests.md")
+    for name in ("models", "target"):
+        pages[Path(f"tests/{name}/README.md")] = Path(f"{name}.md")
     return pages
 
 
@@ -63,8 +69,28 @@ def indent_items(text):
     return "\n".join(lines)
 
 
+def sources_of(root, program):
+    """The language of each source file of a directory of demo/; files of its subdirectories are last."""
+    files = {file.relative_to(root): name for name in LANGUAGES for file in sorted((root / program).rglob(name))}
+    files = {file: name for file, name in files.items() if not {"generated", "build"} & set(file.parts[:-1])}
+    return {file: LANGUAGES[files[file]] for file in sorted(files, key=lambda file: len(file.parts))}
+
+
 def adapt(text, source, pages, headers, root):
-    """The text of a page with links that hold within the site, and with Markdown that mkdocs understands."""
+    """The text of a page with links that hold within the site, and with Markdown that mkdocs understands; and the
+    directories of demo/ that it names."""
+    programs = set()
+
+    def program_of(place):
+        """The path from the page to the sources of a file or directory of demo/, None for a script."""
+        program = Path(*place.parts[:2])
+        if place.parts[0] != "demo" or not (root / program).is_dir():
+            return None
+        if place not in (program, *sources_of(root, program)):
+            return None
+        programs.add(program)
+        anchor = f"#{place.relative_to(program)}" if place != program else ""
+        return os.path.relpath(f"source/{program.name}.md", pages[source].parent) + anchor
 
     def link(match):
         picture, words, target, anchor = match[1], match[2], match[3], match[4] or ""
@@ -79,9 +105,25 @@ def adapt(text, source, pages, headers, root):
             return f"{picture}[{words}]({os.path.relpath(pages[place], pages[source].parent)}{anchor})"
         if not (root / place).exists():
             sys.exit(f"{source}: the link to {target} leads nowhere")
+        if to := program_of(place):
+            return f"[{words}]({to})"
         return f"{words} (`{place}`)" if str(place) not in words else f"`{place}`"
 
-    return LINK.sub(link, indent_items(FENCE.sub(r"\1", text)))
+    def program(match):
+        to = program_of(Path(match[1].rstrip("/")))
+        return f"[`{match[1]}`]({to})" if to else match[0]
+
+    return PROGRAM.sub(program, LINK.sub(link, indent_items(FENCE.sub(r"\1", text)))), programs
+
+
+def page_of_program(root, program):
+    """A page with the sources of a program."""
+    lines = [f"# `{program}`", "", f"Sources of `{program}` in the repository."]
+    for file, language in sources_of(root, program).items():
+        name = file.relative_to(program)
+        code = (root / file).read_text().rstrip("\n")
+        lines += ["", f"## `{name}` {{ #{name} }}", "", f"````{language}", code, "````"]
+    return "\n".join(lines) + "\n"
 
 
 def draw(root, to):
@@ -97,9 +139,15 @@ def main():
     listed = (root / "docs/site/mkdocs.yml").read_text()
     if missing := [str(place) for place in pages.values() if f": {place}\n" not in listed]:
         sys.exit(f"docs/site/mkdocs.yml, nav, does not list: {', '.join(missing)}")
+    programs = set()
     for source, place in pages.items():
         (to / place).parent.mkdir(parents=True, exist_ok=True)
-        (to / place).write_text(adapt((root / source).read_text(), source, pages, headers, root))
+        text, named = adapt((root / source).read_text(), source, pages, headers, root)
+        (to / place).write_text(text)
+        programs |= named
+    (to / "source").mkdir()
+    for program in programs:
+        (to / f"source/{program.name}.md").write_text(page_of_program(root, program))
     shutil.copytree(reference / "html", to / "reference")
     draw(root, to / "pictures")
     for file in sorted((root / "docs/pictures").glob("*.svg")):
