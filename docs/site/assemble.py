@@ -97,8 +97,8 @@ def adapt(text, source, pages, headers, root):
         if "://" in target:
             return match[0]
         place = Path(os.path.normpath(source.parent / target))
-        if place.suffix == ".svg":
-            return match[0]
+        if place.parent == Path("docs/pictures"):
+            return f"{picture}[{words}]({os.path.relpath(place.relative_to('docs'), pages[source].parent)})"
         if place in headers:
             return f"[{words}]({os.path.relpath(headers[place], pages[source].parent)})"
         if place in pages:
@@ -150,7 +150,7 @@ def main():
         (to / f"source/{program.name}.md").write_text(page_of_program(root, program))
     shutil.copytree(reference / "html", to / "reference")
     draw(root, to / "pictures")
-    for file in sorted((root / "docs/pictures").glob("*.svg")):
+    for file in sorted((root / "docs/pictures").glob("*.[sp][vn]g")):
         shutil.copy(file, to / "pictures")
     shutil.copy(root / "docs/site/space.css", to)
 

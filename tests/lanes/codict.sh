@@ -41,7 +41,12 @@ all_cases() {
     check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
   done
   check "installation with the manual page and completion" install_codict
+  check "docs/pictures shows the output of codict check" same_screen "$of/codict"
   run_tap "$root/tools/codict/tests/page_test.py" "$of/codict" "$root/tools/codict/tests/fixtures"
+}
+
+same_screen() {  # CODICT
+  "$root/docs/site/screens.py" "$results" "$1" && diff "$results/screen_check.svg" "$root/docs/pictures/screen_check.svg"
 }
 
 install_codict() {

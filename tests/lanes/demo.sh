@@ -9,6 +9,7 @@ lane() {
   run_pages "$root"
   rm -f "$root/recorder.svg"
   check "demo/run --virtual" shows "steps in .* all as expected" --virtual
+  check "docs/pictures shows this output" same_screen
   check "demo/run thermometer" shows "TPDO1 temperature in 0.1 degrees Celsius = 1010" thermometer
   check "demo/run recorder, and its picture in Chromium" drawn
   check "demo/run --serve, and the commands for the master" served
@@ -19,6 +20,10 @@ demo() { "$root/demo/run" "$@"; }
 
 shows() {  # REGEX ARGUMENT...
   demo "${@:2}" | tee "$results/demo-shown.log" | grep -E "$1"
+}
+
+same_screen() {
+  "$root/docs/site/screens.py" "$results" && diff "$results/screen_demo.svg" "$root/docs/pictures/screen_demo.svg"
 }
 
 drawn() {
