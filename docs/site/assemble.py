@@ -6,7 +6,7 @@ Copies the pages of the site to the directory PAGES, which must not exist: docs/
 rules, the pages for contributors, and the API reference that reference.sh has made in REFERENCE. Adds a page with the
 sources of each example program of demo/ that a page names. Links between pages are adapted; a link to a header leads to
 its page of the API reference, a link to another file of the repository becomes its path. Pictures are drawn from
-docs/pictures/*.dot by Graphviz.
+docs/pictures/*.dot by Graphviz. Rows of the first page that name a row of docs/sizes.md or docs/speed.md get its numbers.
 """
 import os.path
 import re
@@ -20,6 +20,8 @@ FENCE = re.compile(r"^(```\w+) whole$", re.MULTILINE)
 PROGRAM = re.compile(r"(?<!\[)`(demo/[\w/.]+)`")
 # Names of source files of example programs, and their languages, in the order of a page.
 LANGUAGES = {"*.c": "c", "*.h": "c", "*.cpp": "cpp", "*.hpp": "cpp", "*.xdd": "xml", "CMakeLists.txt": "cmake", "makefile": "make"}
+NUMBERS = re.compile(r"^(\| \[(.+)\]\((\w+\.md)\S*\) \|) \| \| \|$", re.MULTILINE)
+STACKS = ("CANopen-Stack 4.4", "CANopenNode 4.1")
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
 
 
@@ -126,6 +128,25 @@ def page_of_program(root, program):
     return "\n".join(lines) + "\n"
 
 
+def with_numbers(text, docs):
+    """The text with the numbers of rows that name a row of a page: those of the first CPU, of Lexican and other stacks."""
+
+    def cells_of(line):
+        return [cell.strip() for cell in line.strip("|").split("|")]
+
+    def numbers(match):
+        head = []
+        for cells in map(cells_of, (docs / match[3]).read_text().splitlines()):
+            if STACKS[0] in cells:
+                head = cells
+            elif head and cells[0] == match[2]:
+                values = [cells[1], *(cells[head.index(stack)] for stack in STACKS)]
+                return match[1] + "".join(f" {float(value):,.12g} |".replace(",", "\u202f") for value in values)
+        sys.exit(f"docs/index.md: {match[3]} has no row '{match[2]}'")
+
+    return NUMBERS.sub(numbers, text)
+
+
 def draw(root, to):
     to.mkdir(parents=True, exist_ok=True)
     for source in sorted((root / "docs/pictures").glob("*.dot")):
@@ -143,6 +164,8 @@ def main():
     for source, place in pages.items():
         (to / place).parent.mkdir(parents=True, exist_ok=True)
         text, named = adapt((root / source).read_text(), source, pages, headers, root)
+        if place == Path("index.md"):
+            text = "---\nhide: [navigation, toc]\n---\n" + with_numbers(text, root / "docs")
         (to / place).write_text(text)
         programs |= named
     (to / "source").mkdir()

@@ -12,6 +12,8 @@ lane() {
   run_tap python3 "$root/docs/site/check.py" "$site/html"
   run_tap python3 "$root/tests/system/commands.py" "$root"
   check "found: a command that no lane runs" unrun_command
+  run_tap python3 "$root/tests/porting/excerpts.py" "$root" docs/index.md
+  check "the first page has the numbers of docs/sizes.md and docs/speed.md" first_page_has_numbers
   check "found: a page that loads from elsewhere" planted '<script src="https://example.org/a.js"></script>'
   check "found: a link that leads nowhere" planted '<a href="../nowhere/">nowhere</a>'
   check "found: a search that leads nowhere" planted '{"docs": [{"location": "reference/a.html#b"}]}' search_index.json
@@ -34,6 +36,13 @@ lane() {
   rm -rf "$results/site"
   local pages=("${reference_pages[@]/%/.html}")
   run_tap "$root/docs/site/screenshots.py" "$site/html" "$results/site" "${pages[@]/#/reference/}"
+}
+
+# The table of docs/index.md is filled when the site is built: no cell is empty, and the second row has the committed number.
+first_page_has_numbers() {
+  local page=$build/site/html/index.html number
+  number=$(sed -n 's/^slave, flash of the stack alone | \([0-9]*\) .*/\1/p' "$root/tests/sizes/nodes.txt")
+  ! grep '<td[^>]*></td>' "$page" && tr -d '\342\200\257' <"$page" | grep "<td[^>]*>$number</td>"
 }
 
 port_in_use_is_refused() {
