@@ -6,7 +6,8 @@ Copies the pages of the site to the directory PAGES, which must not exist: docs/
 rules, the pages for contributors, and the API reference that reference.sh has made in REFERENCE. Adds a page with the
 sources of each example program of demo/ that a page names. Links between pages are adapted; a link to a header leads to
 its page of the API reference, a link to another file of the repository becomes its path. Pictures are drawn from
-docs/pictures/*.dot by Graphviz. Rows of the first page that name a row of docs/sizes.md or docs/speed.md get its numbers.
+docs/pictures/*.dot by Graphviz. Rows of the first page that name a row of docs/sizes.md or docs/speed.md get its
+numbers.
 """
 import os.path
 import re
@@ -19,7 +20,8 @@ from xml.etree import ElementTree
 FENCE = re.compile(r"^(```\w+) whole$", re.MULTILINE)
 PROGRAM = re.compile(r"(?<!\[)`(demo/[\w/.]+)`")
 # Names of source files of example programs, and their languages, in the order of a page.
-LANGUAGES = {"*.c": "c", "*.h": "c", "*.cpp": "cpp", "*.hpp": "cpp", "*.xdd": "xml", "CMakeLists.txt": "cmake", "makefile": "make"}
+LANGUAGES = {"*.c": "c", "*.h": "c", "*.cpp": "cpp", "*.hpp": "cpp", "*.xdd": "xml", "CMakeLists.txt": "cmake",
+             "makefile": "make"}
 NUMBERS = re.compile(r"^(\| \[(.+)\]\((\w+\.md)\S*\) \|) \| \| \|$", re.MULTILINE)
 STACKS = ("CANopen-Stack 4.4", "CANopenNode 4.1")
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
@@ -129,7 +131,7 @@ def page_of_program(root, program):
 
 
 def with_numbers(text, docs):
-    """The text with the numbers of rows that name a row of a page: those of the first CPU, of Lexican and other stacks."""
+    """The text with numbers in the rows that name a row of a page: of the first CPU, of Lexican and other stacks."""
 
     def cells_of(line):
         return [cell.strip() for cell in line.strip("|").split("|")]

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """check.py HTML
 
-Checks the built site: no page and no style sheet loads anything from another machine, links and pictures within the site
-exist, and the search leads to existing places, also of the API reference. Prints "1..N" and a line "ok …" or "not ok …"
-for each page, style sheet and index of the search.
+Checks the built site: no page and no style sheet loads anything from another machine, links and pictures within the
+site exist, and the search leads to existing places, also of the API reference. Prints "1..N" and a line "ok …" or
+"not ok …" for each page, style sheet and index of the search.
 """
 import json
 import re

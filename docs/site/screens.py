@@ -20,7 +20,8 @@ sys.path.insert(0, str(ROOT / "tests/lanes"))
 from browser import Browser  # noqa: E402
 
 TEXT = "#d4d4d4"
-COLOURS = {"1": "#ffffff", "32": "#7ec97e", "1;31": "#ff7b72", "33": "#e2c069", "1;35": "#d99ee8", "36": "#6cc7d6", "90": "#9a9a9a"}
+COLOURS = {"1": "#ffffff", "32": "#7ec97e", "1;31": "#ff7b72", "33": "#e2c069", "1;35": "#d99ee8", "36": "#6cc7d6",
+           "90": "#9a9a9a"}
 WIDTH, HEIGHT = 7, 17  # pixels of a character
 
 # Changes of the demo's description that make it faulty: a section, and what sed does in it.
@@ -76,7 +77,8 @@ def draw_demo(pictures):
     lines = output_of("demo/run", "--virtual")
     first, last = (next(n for n, line in enumerate(lines) if step in line) for step in (" 2. ", " 4. "))
     head = [line for line in lines if "time/s" in line]
-    write_svg(pictures / "screen_demo.svg", "demo/run", [*head, "", *lines[first:last], "\033[90m    …\033[0m", lines[-1]])
+    shown = [*head, "", *lines[first:last], "\033[90m    …\033[0m", lines[-1]]
+    write_svg(pictures / "screen_demo.svg", "demo/run", shown)
 
 
 def draw_check(codict, pictures, directory):

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """search.py REFERENCE HTML
 
-Adds the API reference that reference.sh has made in REFERENCE to the search of the site in HTML: an entry for each header
-and type, with the names of its members, and one for each function, macro, constant and variable, with its brief
-description. Omits the text of the example programs, which would hide the pages that explain a function.
+Adds the API reference that reference.sh has made in REFERENCE to the search of the site in HTML: an entry for each
+header and type, with the names of its members, and one for each function, macro, constant and variable, with its
+declaration and brief description. Omits the text of the example programs, which would hide the pages that explain a
+function.
 """
 import json
 import sys

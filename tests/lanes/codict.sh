@@ -46,7 +46,8 @@ all_cases() {
 }
 
 same_screen() {  # CODICT
-  "$root/docs/site/screens.py" "$results" "$1" && diff "$results/screen_check.svg" "$root/docs/pictures/screen_check.svg"
+  "$root/docs/site/screens.py" "$results" "$1" &&
+    diff "$results/screen_check.svg" "$root/docs/pictures/screen_check.svg"
 }
 
 install_codict() {

@@ -26,8 +26,8 @@ lane() {
     $'/// A\nenum A { a };'; do
     check "found: no comment in: ${symbol//$'\n'/ }" undocumented '/// \file planted.hpp' '/// A header.' '' "$symbol"
   done
-  check "found: a function without list of results" refused_reference ' has no list of ' '/// \file planted.h' '/// A header.' '' \
-    '/// A function.' 'CO_ERR a();'
+  check "found: a function without list of results" refused_reference ' has no list of ' '/// \file planted.h' \
+    '/// A header.' '' '/// A function.' 'CO_ERR a();'
   check "a list of results is accepted" reference_of planted.h '/// \file planted.h' '/// A header.' '' '/// A function.' \
     '/// \retval CO_ERR_NONE  success' 'CO_ERR a();'
   check "found: a result within a line" refused_reference ' within a line' '/// \file planted.h' '/// A header.' '' \
@@ -38,7 +38,7 @@ lane() {
   run_tap "$root/docs/site/screenshots.py" "$site/html" "$results/site" "${pages[@]/#/reference/}"
 }
 
-# The table of docs/index.md is filled when the site is built: no cell is empty, and the second row has the committed number.
+# The build of the site fills the table of docs/index.md: no cell is empty, and one has the committed number.
 first_page_has_numbers() {
   local page=$build/site/html/index.html number
   number=$(sed -n 's/^slave, flash of the stack alone | \([0-9]*\) .*/\1/p' "$root/tests/sizes/nodes.txt")
