@@ -3,7 +3,7 @@ about="the documentation site: builds without warnings, comments for every symbo
 minutes=2
 packages=(mkdocs mkdocs-material=/usr/share/mkdocs/themes/material/mkdocs_theme.yml graphviz=dot doxygen python3 chromium)
 # Pages of the API reference that are drawn: one of each kind.
-reference_pages=(index co__csdo_8h co__cfg_8h structCO__NODE__T classco_1_1VirtualBus files)
+reference_pages=(index co__core_8h co__csdo_8h co__cfg_8h co__od_8h namespaceco structCO__NODE__T classco_1_1VirtualBus files)
 
 lane() {
   local site=$build/site
