@@ -5,9 +5,8 @@ packages=("${build_packages[@]}" "${arm_packages[@]}" make python3 qemu-system-a
 
 lane() {
   run_pages
-  local source=build/stm32-copy  # out of the tree, as users do
-  mkdir -p "$build" && rm -rf "$build/stm32-copy" && cp -a "$root/demo/stm32" "$build/stm32-copy"
-  build_tree stm32-nucleo_f446re -DLEXICAN="$root" --toolchain "$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_PRESET=slave \
+  local source=demo/stm32
+  build_tree stm32-nucleo_f446re --toolchain "$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_PRESET=slave \
     -DLEXICAN_CPU=cortex-m4 -DLEXICAN_BOARD=nucleo_f446re && pass &&
     check "an oscillator that does not start: the LED blinks" blinks_without_oscillator "$build/stm32-nucleo_f446re/node.elf"
   compile_memory flash_stm32f4 cortex-m4 flash_pages

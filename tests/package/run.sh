@@ -31,20 +31,12 @@ by_cmake() {  # [LANGUAGES]
   [ -z "$(find "$directory" -name 'lexican_*' -o -name 'lexican-demo*')" ]
 }
 
-# A C program on the virtual bus, by CMake and by the command lines of docs/integrate.md.
+# A C program on the virtual bus. The lane runs the command lines of docs/integrate.md, too.
 with_drivers() {
   program=$source/demo/first_node/first_node.c
   by_cmake "C;CXX"
   "$directory/consumer" >"$directory/said"
   grep -x ' 500 ms, node 5: 705 7F' "$directory/said"
-  local flags drivers
-  export PKG_CONFIG_PATH=$library/pkgconfig
-  read -ra flags < <(pkg-config --cflags --libs lexican)
-  drivers=$(pkg-config --variable=drivers lexican)
-  flags=(-I "$drivers/can/virtual_bus" -I "$drivers/timer/software" "${flags[@]}")
-  "${compiler[@]}" -c "$program" "${flags[@]}" -o "$directory/first_node.o"
-  g++ -std=c++17 "$directory/first_node.o" "$drivers"/{can/virtual_bus,timer/software}/*.cpp "${flags[@]}" -o "$directory/consumer"
-  "$directory/consumer" | diff "$directory/said" -
 }
 
 library=$(dirname "$(find "$prefix" -name liblexican.a)")

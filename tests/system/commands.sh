@@ -7,7 +7,7 @@
 commands=$1 cases=0 started=
 log=$(mktemp)
 cd "$2" || exit
-unset CMAKE_GENERATOR CMAKE_BUILD_TYPE CMAKE_PREFIX_PATH PKG_CONFIG_PATH
+unset CMAKE_GENERATOR CMAKE_BUILD_TYPE CMAKE_PREFIX_PATH
 
 verdict() {  # STATUS PAGE COMMAND
   cases=$((cases + 1))
@@ -19,9 +19,10 @@ verdict() {  # STATUS PAGE COMMAND
   fi
 }
 
+# Runs in this shell, as later commands may use variables.
 run() {  # PAGE COMMAND
   echo "\$ $2"
-  (eval "$2") </dev/null >"$log" 2>&1
+  eval "$2" </dev/null >"$log" 2>&1
   verdict $? "$1" "$2"
 }
 
