@@ -2,11 +2,32 @@
 // Reading of an EDS or DCF: data of the whole device, compact storage, modules.
 #include <doctest/doctest.h>
 
+#include <string>
+
+#include "check/check.hpp"
+#include "eds/read.hpp"
 #include "reading.hpp"
 
 using namespace lexican::codict;
 using test::meaning;
 using test::Reading;
+
+namespace {
+
+// Returns the messages of check_device() about a section [DeviceComissioning] with these keys.
+std::string commissioning_faults(const std::string& keys) {
+  Findings of_reader;
+  const eds::Document document(Source("a.dcf", "[DeviceComissioning]\n" + keys), of_reader);
+  Findings findings;
+  check::check_device(eds::read(document, of_reader).devices.front(), findings);
+  std::string text;
+  for (const Finding& finding : findings.all()) {
+    text += std::string(finding.rule->id) + ": " + finding.text + "\n";
+  }
+  return text;
+}
+
+}  // namespace
 
 TEST_CASE("EDS: FileInfo is read; deviations in its form are reported [306: 4.4]") {
   const Reading eds("file_info.eds");
@@ -82,11 +103,22 @@ TEST_CASE("DCF: commissioning is read [306: 5.3]") {
 
 TEST_CASE("DCF: a duplicate section in the spelling DeviceCommissioning is read once") {
   const Reading dcf("commissioning.dcf");
-  CHECK(dcf.device.commissioning.node_id.value == 200);
+  CHECK(dcf.device.commissioning.node_id.value == 20);
   CHECK(dcf.device.commissioning.network_reference.value == 2);
   CHECK(dcf.device.commissioning.is_manager.text == "yes");
   CHECK(dcf.device.others.at(0).children.at(0).text.text == "3");
   CHECK(dcf.found() == "20:2 eds-commissioning-spelling\n22:16 od-value-number\n26:2 eds-duplicate-section\n");
+}
+
+TEST_CASE("DCF: node-IDs other than 1 to 127 and FFh, and bit rates that CiA 301 does not define, are reported") {
+  for (const std::string keys : {"NodeID=1", "NodeID=127", "NodeID=0xFF", "NodeID=", "NodeID=five", "NodeID=300",
+                                 "Baudrate=0", "Baudrate=100", "Baudrate=1000", "Baudrate=fast", "NodeName=0"}) {
+    CAPTURE(keys);
+    CHECK(commissioning_faults(keys) == "");
+  }
+  CHECK(commissioning_faults("NodeID=0") == "od-node-id: node-ID 0 is not in the range 1 to 127\n");
+  CHECK(commissioning_faults("NodeID=0x80\nBaudrate=333") ==
+        "od-node-id: node-ID 128 is not in the range 1 to 127\nod-bit-rate: CiA 301 does not define 333 kbit/s\n");
 }
 
 TEST_CASE("DCF: ParameterValue, Denotation and the files of a DOMAIN are read [306: 5.2]") {

@@ -16,7 +16,7 @@ void check_all(const Device& device, Findings& findings);
 /// Checks objects, sub-objects and their values. [301: 7.4]
 void check_objects(const Device& device, Findings& findings);
 
-/// Checks the device-wide entries of the description against the objects.
+/// Checks the device-wide entries of the description, also against the objects.
 void check_device(const Device& device, Findings& findings);
 
 /// Checks relations between objects: types, links, modules, pairs.
@@ -35,6 +35,8 @@ extern const Rule limit_order;
 extern const Rule limit;
 extern const Rule pdo_count;
 extern const Rule identity;
+extern const Rule node_id;
+extern const Rule bit_rate;
 extern const Rule type_complex;
 extern const Rule unmappable;
 extern const Rule array_types;

@@ -16,6 +16,8 @@ const Rule limit{"od-limit", Severity::error, "default or configured value outsi
 const Rule pdo_count{"od-pdo-count", Severity::warning,
                      "NrOfRXPDO or NrOfTXPDO differs from the PDOs that are described"};
 const Rule identity{"od-identity", Severity::warning, "identity in DeviceInfo differs from object 1018h"};
+const Rule node_id{"od-node-id", Severity::error, "node-ID that is neither 1 to 127 nor FFh (unconfigured)"};
+const Rule bit_rate{"od-bit-rate", Severity::warning, "bit rate that CiA 301 does not define"};
 const Rule type_complex{"od-type-complex", Severity::warning, "VAR or sub-object whose data type is a structure"};
 const Rule unmappable{"od-unmappable", Severity::warning, "DOMAIN with PDO mapping"};
 const Rule array_types{"od-array-types", Severity::warning, "ARRAY with elements of different data types"};
@@ -48,17 +50,11 @@ void check_all(const Device& device, Findings& findings) {
 
 const std::vector<const Rule*>& all_rules() {
   using namespace rules;
-  static const std::vector<const Rule*> all = {&sub_number,      &sub_zero_missing,
-                                               &sub_zero_value,  &sub_zero_small,
-                                               &sub_zero_large,  &limit_order,
-                                               &limit,           &pdo_count,
-                                               &identity,        &type_complex,
-                                               &unmappable,      &array_types,
-                                               &string_capacity, &link,
-                                               &module_list,     &module_object,
-                                               &module_number,   &former,
-                                               &store_pair,      &granularity,
-                                               &standard_kind,   &standard_type};
+  static const std::vector<const Rule*> all = {
+      &sub_number,    &sub_zero_missing, &sub_zero_value,  &sub_zero_small, &sub_zero_large, &limit_order,
+      &limit,         &pdo_count,        &identity,        &node_id,        &bit_rate,       &type_complex,
+      &unmappable,    &array_types,      &string_capacity, &link,           &module_list,    &module_object,
+      &module_number, &former,           &store_pair,      &granularity,    &standard_kind,  &standard_type};
   return all;
 }
 
