@@ -37,7 +37,7 @@ TEST_CASE("no EDS: an empty file is refused") {
 
 TEST_CASE("no EDS: UTF-16, binary bytes and XML are refused") {
   CHECK(says(refusal_of(std::string("\xFF\xFE[\0F\0", 6)), "UTF-16"));
-  CHECK(says(refusal_of(std::string("[FileInfo]\0", 11)), "no text"));
+  CHECK(says(refusal_of(std::string("[FileInfo]\na\0", 13)), "NUL byte at 2:2 (offset 12)"));
   CHECK(says(refusal_of("\xEF\xBB\xBF<?xml version=\"1.0\"?>"), "XML"));
 }
 

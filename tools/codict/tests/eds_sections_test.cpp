@@ -2,6 +2,9 @@
 // Reading of an EDS: sections, lines, characters; in the form of CiA 306 and in others that exist.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "eds/read.hpp"
 #include "eds/rules.hpp"
 #include "reading.hpp"
@@ -142,7 +145,7 @@ TEST_CASE("EDS: a line of more than 255 characters is read") {
   CHECK(eds.found() == "29:256 eds-syntax-length\n");
 }
 
-TEST_CASE("EDS: lines end with LF or CR LF, the last one with either or none") {
+TEST_CASE("EDS: lines end with LF or CR LF, the last one with either or none; or all with CR") {
   const Reading mixed("line_ends.eds");
   CHECK(mixed.device.manufacturer.count.value == 1);
   CHECK(mixed.at(0x2000).access.value == Access::rw);
@@ -150,6 +153,23 @@ TEST_CASE("EDS: lines end with LF or CR LF, the last one with either or none") {
   const Reading dos("dos_lines.eds");
   CHECK(dos.at(0x2000).access.text == "rw");
   CHECK(dos.found().empty());
+  Findings findings;
+  std::string bytes(dos.document.source().bytes());
+  bytes.erase(std::remove(bytes.begin(), bytes.end(), '\n'), bytes.end());
+  const eds::Document mac(Source("mac.eds", bytes), findings);
+  CHECK(mac.sections().size() == dos.document.sections().size());
+  CHECK(mac.line_end() == "\r");
+  Edits edits;
+  CHECK(mac.add_key(mac.sections().front(), "CreatedBy", "x", edits));
+  CHECK(edits.applied_to(bytes).find("\rCreatedBy=x\r") != std::string::npos);
+  CHECK(findings.all().empty());
+}
+
+TEST_CASE("EDS: a no-break space in the name of a key is reported") {
+  Findings findings;
+  const eds::Document document(Source("a.eds", u8"[FileInfo]\nFileName\u00A0=a.eds\n"), findings);
+  REQUIRE(findings.count(eds::rules::syntax_key) == 1);
+  CHECK(findings.all().back().text == "no-break space in key 'FileName<U+00A0>', which is unknown");
 }
 
 TEST_CASE("EDS: characters beyond ASCII are read as UTF-8, else with a guessed encoding") {

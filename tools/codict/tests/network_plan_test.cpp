@@ -138,7 +138,9 @@ TEST_CASE("network: YAML that is hostile or not YAML is refused with its place")
   CHECK(found("a: 1\n---\nb: 1\n").find("net-yaml: a second document") != std::string::npos);
   CHECK(starts_with(found("a: [1\nb: }"), "2:"));
   CHECK(starts_with(found("a:\n\t- b\n"), "2:"));
-  CHECK(found(std::string("a: 1\0b", 6)) == "1:1: net-yaml: the plan is not UTF-8 text (save it as UTF-8)\n");
+  CHECK(found(std::string("a: 1\0b", 6)) ==
+        "1:5: net-yaml: NUL byte in the plan (remove it, or save the plan as UTF-8)\n");
+  CHECK(found("\xFF\xFE") == "1:1: net-yaml: the plan is not UTF-8 text (save it as UTF-8)\n");
 }
 
 TEST_CASE("network: deep nesting, large files and too many values are refused") {

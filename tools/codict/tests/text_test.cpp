@@ -61,6 +61,23 @@ TEST_CASE("a source returns line and column of each byte") {
   CHECK(Source("x", "").lines() == 1);
 }
 
+TEST_CASE("lines of a source without LF end with CR") {
+  const Source source("x", "ab\r\rcd");
+  CHECK(source.lines() == 3);
+  CHECK(source.slice(source.line(1)) == "ab");
+  CHECK(source.slice(source.line(2)).empty());
+  CHECK(source.slice(source.line(3)) == "cd");
+  CHECK(source.position(5).line == 3);
+  CHECK(source.position(5).column == 2);
+}
+
+TEST_CASE("a finding names no-break spaces, which look like blanks") {
+  Findings findings;
+  findings.add(first_rule, {}, u8"'5\u00A0' is not a number", "write a number");
+  CHECK(findings.all().at(0).text == "'5<U+00A0>' is not a number");
+  CHECK(findings.all().at(0).hint == "remove the no-break space (U+00A0), or write a number");
+}
+
 TEST_CASE("edits change only their spans, in any order") {
   Edits edits;
   edits.replace({4, 5}, "E");

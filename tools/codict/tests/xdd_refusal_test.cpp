@@ -29,7 +29,7 @@ TEST_CASE("no XDD: files that are not XML or not text are refused") {
   CHECK(says(xml_refusal(""), "empty"));
   CHECK(says(xml_refusal("\xEF\xBB\xBF \n"), "empty"));
   CHECK(says(xml_refusal("[FileInfo]\n"), "no XML"));
-  CHECK(says(xml_refusal(std::string("<\0a\0", 4)), "no text"));
+  CHECK(says(xml_refusal(std::string("<\0a\0", 4)), "NUL byte at 1:2 (offset 1)"));
   CHECK(says(xml_refusal(std::string("\xFF\xFE<\0a\0>\0", 8)), "UTF-16"));
   CHECK(says(xml_refusal("<!-- nothing else -->"), "no XML element"));
 }

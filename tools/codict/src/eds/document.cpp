@@ -233,6 +233,10 @@ void Document::read_key(std::uint32_t number, Span line, Findings& findings) {
     findings.add(rules::syntax_key, name, fmt::format("blanks in key {} are ignored", in_quotes(text(name))),
                  "write it without blanks");
   }
+  if (text(name).find("\xC2\xA0") != std::string::npos) {
+    findings.add(rules::syntax_key, name,
+                 fmt::format("no-break space in key {}, which is unknown", in_quotes(text(name))));
+  }
   if (sections_.empty()) {
     findings.add(rules::syntax_outside, name,
                  fmt::format("key {} before the first section is not used", in_quotes(text(name))),

@@ -61,8 +61,8 @@ std::string refusal(const Source& source) {
   if (guess_encoding(bytes) == Encoding::utf16) {
     return "the file is UTF-16: save it as ASCII or UTF-8";
   }
-  if (contains(bytes, std::string_view("\0", 1))) {
-    return "this is no text";
+  if (const std::string fault = nul_fault(source); !fault.empty()) {
+    return fault;
   }
   if (bytes.size() > most_bytes) {
     return "more than 16 MB: this is no EDS or DCF";

@@ -139,11 +139,8 @@ bool refuse(Findings& findings, Span span, std::string text, std::string hint = 
   return false;
 }
 
-// Returns true for UTF-16, UTF-32 and NUL bytes: yaml-cpp would convert the text, so that offsets were wrong.
-bool is_binary(std::string_view bytes) {
-  return bytes.find('\0') != std::string_view::npos || bytes.substr(0, 2) == "\xFE\xFF" ||
-         bytes.substr(0, 2) == "\xFF\xFE";
-}
+// Returns true for UTF-16 and UTF-32: yaml-cpp would convert the text, so that offsets were wrong.
+bool is_wide(std::string_view bytes) { return bytes.substr(0, 2) == "\xFE\xFF" || bytes.substr(0, 2) == "\xFF\xFE"; }
 
 }  // namespace
 
@@ -162,8 +159,11 @@ bool read(const Source& source, Node& root, Findings& findings) {
     return refuse(findings, {}, fmt::format("the plan has {} bytes; the limit is {}", source.size(), size_limit),
                   "write a shorter plan");
   }
-  if (is_binary(source.bytes())) {
+  if (is_wide(source.bytes())) {
     return refuse(findings, {}, "the plan is not UTF-8 text", "save it as UTF-8");
+  }
+  if (const auto nul = static_cast<std::uint32_t>(source.bytes().find('\0')); nul < source.size()) {
+    return refuse(findings, {nul, nul + 1}, "NUL byte in the plan", "remove it, or save the plan as UTF-8");
   }
   Builder builder(source);
   try {

@@ -18,6 +18,24 @@ std::string_view name_of(Severity severity) {
   return "error";
 }
 
+namespace {
+
+constexpr std::string_view no_break_space = "\xC2\xA0";  // UTF-8
+
+// Writes the code of no-break spaces, which look like blanks, and adds the remedy.
+void name_no_break_spaces(std::string& text, std::string& hint) {
+  std::size_t at = text.find(no_break_space);
+  if (at == std::string::npos) {
+    return;
+  }
+  for (; at != std::string::npos; at = text.find(no_break_space, at)) {
+    text.replace(at, no_break_space.size(), "<U+00A0>");
+  }
+  hint = "remove the no-break space (U+00A0)" + (hint.empty() ? "" : ", or " + hint);
+}
+
+}  // namespace
+
 void Findings::add(const Rule& rule, Span span, std::string text, std::string hint) {
   std::size_t& number = rule.severity == Severity::error ? errors_ : others_;
   if (number == most) {
@@ -25,6 +43,7 @@ void Findings::add(const Rule& rule, Span span, std::string text, std::string hi
     return;
   }
   ++number;
+  name_no_break_spaces(text, hint);
   all_.push_back({&rule, span, std::move(text), std::move(hint), rule.severity, {}});
 }
 

@@ -27,7 +27,7 @@ struct Position {
   std::uint32_t column = 1;
 };
 
-/// A file that has been read. Lines end with LF or CR LF.
+/// A file that has been read. Lines end with LF or CR LF, or with CR if there is no LF.
 class Source {
  public:
   /// Limit of the size in bytes. Larger inputs are not device descriptions; offsets fit in 32 bits.
@@ -50,5 +50,8 @@ class Source {
   std::string bytes_;
   std::vector<std::uint32_t> starts_{0};  // offsets of the first bytes of the lines
 };
+
+/// Returns a message with the place of the first NUL byte; empty if there is none.
+std::string nul_fault(const Source& source);
 
 }  // namespace lexican::codict

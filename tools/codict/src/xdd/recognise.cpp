@@ -71,8 +71,8 @@ std::string refusal(const Source& source) {
   if (guess_encoding(bytes) == Encoding::utf16) {
     return "the file is UTF-16: save it as UTF-8";
   }
-  if (contains(bytes, std::string_view("\0", 1))) {
-    return "this is no text";
+  if (const std::string fault = nul_fault(source); !fault.empty()) {
+    return fault;
   }
   if (bytes[first] == '<') {
     return {};
