@@ -14,7 +14,12 @@ TEST_CASE("EDS: access types are case-insensitive; other words are unknown") {
   CHECK(eds.at(0x2001).access.value == Access::constant);
   CHECK(eds.at(0x2002).access.value == Access::unknown);
   CHECK(eds.at(0x2002).access.text == "UNKNOWN");
-  CHECK(eds.found() == "30:12 eds-access-case\n36:12 eds-access-case\n43:12 eds-access-unknown\n");
+  CHECK(eds.found() ==
+        "32:12 eds-access-case\n38:12 eds-access-case\n45:12 eds-access-unknown\n51:12 eds-access-unknown\n"
+        "57:12 eds-access-unknown\n");
+  CHECK(eds.findings.all().at(2).hint == "write ro, wo, rw, rwr, rww or const");
+  CHECK(eds.findings.all().at(3).hint == "write ro");
+  CHECK(eds.findings.all().at(4).hint == "write wo");
 }
 
 TEST_CASE("EDS: without ObjectType an object is a VAR, or a RECORD if it has sub-objects") {
@@ -28,7 +33,8 @@ TEST_CASE("EDS: an unknown ObjectType is a VAR, and the sub-objects of a VAR are
   const Reading eds("object_type.eds");
   CHECK(eds.device.find(0x2000)->object_code.value == ObjectCode::variable);
   CHECK(eds.device.find(0x2001)->subs.size() == 1);
-  CHECK(eds.found() == "27:12 eds-object-type\n33:12 eds-object-type\n");
+  CHECK(eds.found() == "28:12 eds-object-type\n34:12 eds-object-type\n47:12 eds-object-type\n");
+  CHECK(eds.findings.all().at(2).text == "object type VAR, but there are sub-objects (CompactSubObj)");
 }
 
 TEST_CASE("EDS: an empty value counts as a missing key [306: 4.2]") {

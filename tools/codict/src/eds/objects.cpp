@@ -80,8 +80,10 @@ void interpret_access(Entry& entry, Findings& findings) {
   entry.access.value = access_named(word);
   if (entry.access.value == Access::unknown || entry.access.value == Access::none) {
     entry.access.value = Access::unknown;
-    findings.add(rules::access_unknown, entry.access.span, fmt::format("{} is not an access type", in_quotes(word)),
-                 "write ro, wo, rw, rwr, rww or const");
+    const Access meant = access_meant_by(word);
+    findings.add(
+        rules::access_unknown, entry.access.span, fmt::format("{} is not an access type", in_quotes(word)),
+        meant == Access::unknown ? "write ro, wo, rw, rwr, rww or const" : fmt::format("write {}", name_of(meant)));
   } else if (word != name_of(entry.access.value)) {
     findings.add(rules::access_case, entry.access.span,
                  fmt::format("access type {} is not in small letters", in_quotes(word)),
@@ -164,10 +166,13 @@ void interpret_object(Object& object, Findings& findings) {
   }
   if (has_sub_objects(object.object_code.value)) {
     report_misplaced_keys(object, findings);
-  } else if (!object.subs.empty()) {
+  } else if (!object.subs.empty() || object.compact.value != 0) {
+    const bool is_compact = object.subs.empty();
     findings.add(rules::object_type, object.object_code.is_given ? object.object_code.span : object.span,
-                 fmt::format("object type {}, but there are sub-objects", name_of(object.object_code.value)),
-                 "write ObjectType=0x9 (RECORD), or remove the sub-objects");
+                 fmt::format("object type {}, but there are sub-objects{}", name_of(object.object_code.value),
+                             is_compact ? " (CompactSubObj)" : ""),
+                 is_compact ? "write ObjectType=0x8 (ARRAY), or remove CompactSubObj"
+                            : "write ObjectType=0x9 (RECORD), or remove the sub-objects");
   }
 }
 

@@ -2,6 +2,8 @@
 #include "model/access.hpp"
 
 #include <array>
+#include <string>
+#include <utility>
 
 #include "text/number.hpp"
 
@@ -21,6 +23,23 @@ Access access_named(std::string_view word) {
   for (std::size_t n = 1; n < access_words.size(); ++n) {
     if (equal_ignoring_case(word, access_words[n])) {
       return static_cast<Access>(n);
+    }
+  }
+  return Access::unknown;
+}
+
+Access access_meant_by(std::string_view word) {
+  std::string letters;
+  for (const char c : word) {
+    if (to_lower(c) >= 'a' && to_lower(c) <= 'z') {
+      letters += to_lower(c);
+    }
+  }
+  for (const auto& [meant, words] :
+       {std::pair(Access::ro, " r read readonly "), std::pair(Access::wo, " w write writeonly "),
+        std::pair(Access::rw, " rw wr readwrite "), std::pair(Access::constant, " c constant ")}) {
+    if (std::string_view(words).find(" " + letters + " ") != std::string_view::npos) {
+      return meant;
     }
   }
   return Access::unknown;

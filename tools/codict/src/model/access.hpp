@@ -23,6 +23,8 @@ enum class Access : unsigned char {
 std::string_view name_of(Access access);
 /// Returns the access type of a word of CiA 306, in upper or lower case; unknown for all others.
 Access access_named(std::string_view word);
+/// Returns the access type that a wrong word probably means ("R", "read-only", "R/W"), for the remedy of a message.
+Access access_meant_by(std::string_view word);
 
 constexpr bool is_readable(Access access) {
   return access == Access::ro || access == Access::rw || access == Access::rwr || access == Access::rww ||
