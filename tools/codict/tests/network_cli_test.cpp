@@ -38,6 +38,7 @@ TEST_CASE("codict network: findings have their place in the plan; nothing is wri
   const Ran ran = test::run_codict(directory / "", "network plan.yaml -o out");
   CHECK(ran.status == 1);
   CHECK(has(ran.err, "error: drive_x and drive_y have the node-ID 2 [net-node-id]\n    drive_y:\n    ^"));
+  CHECK_FALSE(has(ran.err, "net-cob-id"));
   CHECK(has(ran.err, "codict: errors, no file was written"));
   CHECK_FALSE(std::filesystem::exists(directory / "out"));
   CHECK(test::run_codict(directory / "", "network plan.yaml -o out --force").status == 1);
@@ -46,10 +47,10 @@ TEST_CASE("codict network: findings have their place in the plan; nothing is wri
 
 TEST_CASE("codict network: an unknown key and a missing description are reported") {
   const test::Directory directory;
-  test::write_bytes(directory / "plan.yaml", "master: {node_id: 1, driver: x}\n");
+  test::write_bytes(directory / "plan.yaml", "master: {node_id: 1, drive: x}\n");
   Ran ran = test::run_codict(directory / "", "network plan.yaml");
   CHECK(ran.status == 1);
-  CHECK(has(ran.err, "plan.yaml:1:22: error: unknown key \"driver\" in master [net-key]\n"));
+  CHECK(has(ran.err, "plan.yaml:1:22: error: unknown key \"drive\" in master [net-key]\n"));
   test::write_bytes(directory / "plan.yaml", "master: {node_id: 1}\na: {dcf: none.eds, node_id: 2}\n");
   ran = test::run_codict(directory / "", "network plan.yaml");
   CHECK(ran.status == 2);

@@ -90,7 +90,62 @@ TEST_CASE("network: an unknown key is an error that names similar ones") {
         "1:22: net-key: unknown key \"sync_periode\" in master (did you mean sync_period?)\n");
   CHECK(found(master + "a:\n  dcf: a.eds\n  tpdo:\n    1:\n      transmision: 1\n") ==
         "6:7: net-key: unknown key \"transmision\" in a.tpdo.1 (did you mean transmission?)\n");
-  CHECK(starts_with(found("master: {node_id: 1, driver: x}\n"), "1:22: net-key: unknown key \"driver\" in master"));
+  CHECK(starts_with(found("master: {node_id: 1, period: 5}\n"), "1:22: net-key: unknown key \"period\" in master"));
+}
+
+TEST_CASE("network: a plan of ROS 2 has defaults, nodes below nodes, and keys without effect") {
+  Findings findings;
+  const Plan plan = read_plan(Source("bus.yml", R"(
+master: {node_id: 1, driver: "ros2_canopen::MasterDriver", package: canopen_master_driver}
+defaults:
+  dcf: drive.eds
+  driver: "ros2_canopen::Cia402Driver"
+  period: 10
+  sdo: [{index: 0x6081, sub_index: 0, value: 1000}]
+  tpdo: {1: {transmission: 1}, 3: {enabled: false}}
+nodes:
+  joint_1: {node_id: 2}
+  joint_2: {node_id: 3, period: 20, dcf: other.eds, tpdo: {2: }, namespace: /a}
+joint_3: {node_id: 4}
+)"),
+                              findings);
+  REQUIRE(plan.slaves.size() == 3);
+  CHECK(plan.slaves[0].name == "joint_1");
+  CHECK(plan.slaves[0].node_id.value == 2);
+  CHECK(plan.slaves[0].description.value == "drive.eds");
+  CHECK(plan.slaves[0].tpdos.size() == 2);
+  CHECK(plan.slaves[1].description.value == "other.eds");
+  CHECK(plan.slaves[1].tpdos.size() == 1);
+  CHECK(plan.slaves[1].values.at(0).text == "1000");
+  CHECK(plan.slaves[2].description.value == "drive.eds");
+  CHECK(findings.count(Severity::error) == 0);
+  std::string texts;
+  for (const Finding& finding : findings.all()) {
+    texts += std::string(finding.rule->id) + ": " + finding.text + "\n";
+  }
+  CHECK(texts ==
+        "net-defaults: defaults are used for 3 nodes\n"
+        "net-key-ros: key \"driver\" has no effect here, only in ROS 2 (2 places)\n"
+        "net-key-ros: key \"namespace\" has no effect here, only in ROS 2 (1 place)\n"
+        "net-key-ros: key \"package\" has no effect here, only in ROS 2 (1 place)\n"
+        "net-key-ros: key \"period\" has no effect here, only in ROS 2 (2 places)\n");
+}
+
+TEST_CASE("network: faults in a plan of ROS 2 are reported once, and nodes may be a list") {
+  const std::string ros = "master: {node_id: 1, driver: x}\n";
+  const std::string driver =
+      "1:22: net-key-ros: key \"driver\" has no effect here, only in ROS 2 (1 place) "
+      "(remove it if the plan is not for ROS 2)\n";
+  CHECK(found(ros + "nodes:\n  - a: {dcf: x}\n  - b: {dcf: x, node_di: 2}\n") ==
+        driver +
+            "4:17: net-key-ros: key \"node_di\" has no effect here, only in ROS 2 (1 place) (did you mean node_id?)\n");
+  CHECK(found(ros + "defaults: {boot: maybe}\nnodes: {a: {node_id: 2}, b: {node_id: 3}}\n") ==
+        "2:18: net-value: invalid defaults.boot: \"maybe\" (write true or false)\n");
+  CHECK(found(ros + "nodes: {a: {dcf: x}}\na: {dcf: x}\n") ==
+        "3:1: net-value: duplicate name of a node: \"a\" (rename one of them)\n" + driver);
+  CHECK(found(ros + "nodes: 1\n") == "2:8: net-value: invalid nodes: \"1\" (write a map)\n" + driver);
+  CHECK(found(ros + "a: {dcf: x, tpdo: {1: {period: 1}}}\n").find("net-key: unknown key \"period\" in a.tpdo.1") !=
+        std::string::npos);
 }
 
 TEST_CASE("network: values of a wrong kind or out of range are errors with what is wanted") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -28,6 +29,13 @@ struct Key {
 };
 using Keys = std::vector<Key>;
 
+// Key that only ROS 2 canopen reads, with its places.
+struct RosKey {
+  Span first;
+  std::set<std::uint32_t> places;
+  std::string hint;
+};
+
 constexpr std::size_t longest_shown = 40;
 constexpr std::size_t most_slaves = 126;
 
@@ -37,6 +45,38 @@ std::string shown(const Node& node) {
     return std::string(yaml::name_of(node.kind));
   }
   return node.text.size() <= longest_shown ? '"' + node.text + '"' : '"' + node.text.substr(0, longest_shown) + "…\"";
+}
+
+// Returns whether a plan is one of ROS 2 canopen: a section or a node names its driver.
+bool has_driver(const Node& node, unsigned levels) {
+  for (std::size_t n = 0; n < node.members(); ++n) {
+    const bool is_driver = node.name(n).text == "driver" && node.value(n).kind == Node::Kind::scalar;
+    if (is_driver || (levels != 0 && has_driver(node.value(n), levels - 1))) {
+      return true;
+    }
+  }
+  return node.kind == Node::Kind::sequence && levels != 0 &&
+         std::any_of(node.items.begin(), node.items.end(),
+                     [levels](const Node& item) { return has_driver(item, levels - 1); });
+}
+
+// Returns a node with the members of `defaults` that it lacks.
+Node with_defaults(Node node, const Node& defaults) {
+  if (node.kind != Node::Kind::map && node.kind != Node::Kind::null) {
+    return node;
+  }
+  node.kind = Node::Kind::map;
+  std::set<std::string> own;
+  for (std::size_t n = 0; n < node.members(); ++n) {
+    own.insert(node.name(n).text);
+  }
+  for (std::size_t n = 0; n < defaults.members(); ++n) {
+    if (own.count(defaults.name(n).text) == 0) {
+      node.items.push_back(defaults.name(n));
+      node.items.push_back(defaults.value(n));
+    }
+  }
+  return node;
 }
 
 class Reader {
@@ -83,6 +123,13 @@ class Reader {
       names.push_back(key.name);
     }
     const std::vector<std::string_view> near = similar(name.text, names);
+    if (is_of_ros_ && path.find('.') == std::string_view::npos) {  // drivers define further keys of sections and nodes
+      RosKey& key = ros_keys_.try_emplace(name.text, RosKey{name.span, {}, {}}).first->second;
+      key.places.insert(name.span.begin);
+      key.hint = near.empty() ? "remove it if the plan is not for ROS 2"
+                              : fmt::format("did you mean {}?", fmt::join(near, ", "));
+      return;
+    }
     findings_.add(rules::key, name.span, fmt::format("unknown key {} in {}", shown(name), path),
                   near.empty() ? fmt::format("the keys are {}", fmt::join(names, ", "))
                                : fmt::format("did you mean {}?", fmt::join(near, ", ")));
@@ -185,6 +232,10 @@ class Reader {
   void read_options(const Node& node, Plan& plan);
   void read_master(const Node& name, const Node& node, PlannedMaster& master);
   void read_slave(const Node& name, const Node& node, PlannedSlave& slave);
+  bool read_defaults(const Node& root);
+  void read_node(const Node& name, const Node& node, Plan& plan);
+  void read_nodes(const Node& nodes, Plan& plan);
+  void report_ros(const Plan& plan);
   void read_pdos(const Node& node, std::vector<PlannedPdo>& pdos);
   void read_pdo(const Node& node, PlannedPdo& pdo);
   void read_cob_id(const Node& node, PlannedPdo& pdo);
@@ -195,6 +246,10 @@ class Reader {
 
   Findings& findings_;
   std::string path_;
+  bool is_of_ros_ = false;
+  std::map<std::string, RosKey> ros_keys_;
+  Node defaults_;
+  Span defaults_name_;
 };
 
 void Reader::read_options(const Node& node, Plan& plan) {
@@ -250,8 +305,6 @@ void Reader::read_slave(const Node& name, const Node& node, PlannedSlave& slave)
                     {"sdo", [&](const Node& n) { read_values(n, slave.values); }}};
   keys.insert(keys.end(), own.begin(), own.end());
   map(node, name.text, keys);
-  require(slave.description.is_given || node.kind != Node::Kind::map, name, "dcf",
-          "add the path of its description: dcf: drive.eds");
 }
 
 void Reader::require(bool is_given, const Node& name, std::string_view key, std::string_view remedy) {
@@ -360,10 +413,79 @@ bool Reader::has_name(const Node& name) {
   return is_name;
 }
 
+// Reads the section defaults, if there is one. Returns false, with findings, if it has errors.
+bool Reader::read_defaults(const Node& root) {
+  const std::size_t errors = findings_.count(Severity::error);
+  for (std::size_t n = 0; n < root.members(); ++n) {
+    if (root.name(n).text == "defaults") {
+      PlannedSlave unused;
+      read_slave(root.name(n), root.value(n), unused);
+      defaults_ = root.value(n);
+      defaults_name_ = root.name(n).span;
+    }
+  }
+  return findings_.count(Severity::error) == errors;
+}
+
+void Reader::read_node(const Node& name, const Node& node, Plan& plan) {
+  if (name.text.substr(0, 1) == "." || !has_name(name)) {  // .name: a disabled section
+    return;
+  }
+  const bool is_double = std::any_of(plan.slaves.begin(), plan.slaves.end(),
+                                     [&name](const PlannedSlave& slave) { return slave.name == name.text; });
+  if (is_double) {
+    findings_.add(rules::value, name.span, fmt::format("duplicate name of a node: {}", shown(name)),
+                  "rename one of them");
+  }
+  PlannedSlave& slave = plan.slaves.emplace_back();
+  const bool is_within_limit = plan.slaves.size() <= most_slaves;  // bounds the time for copies of the defaults
+  read_slave(name, is_within_limit ? with_defaults(node, defaults_) : node, slave);
+  require(slave.description.is_given || node.kind != Node::Kind::map, name, "dcf",
+          "add the path of its description: dcf: drive.eds");
+}
+
+// Reads the section nodes: a map of nodes, or a list of such maps.
+void Reader::read_nodes(const Node& nodes, Plan& plan) {
+  if (nodes.kind == Node::Kind::sequence) {
+    for (const Node& item : nodes.items) {
+      path_ = "nodes";
+      if (is_map(item)) {
+        read_nodes(item, plan);
+      }
+    }
+    return;
+  }
+  path_ = "nodes";
+  if (is_map(nodes)) {
+    for (std::size_t n = 0; n < nodes.members(); ++n) {
+      read_node(nodes.name(n), nodes.value(n), plan);
+    }
+  }
+}
+
+void Reader::report_ros(const Plan& plan) {
+  if (defaults_.kind == Node::Kind::map) {
+    findings_.add(
+        rules::defaults, defaults_name_,
+        fmt::format("defaults are used for {} node{}", plan.slaves.size(), plan.slaves.size() == 1 ? "" : "s"),
+        "to replace a default, write the key into the node");
+  }
+  for (const auto& [name, key] : ros_keys_) {
+    findings_.add(rules::key_ros, key.first,
+                  fmt::format("key \"{}\" has no effect here, only in ROS 2 ({} place{})", shortened(name),
+                              key.places.size(), key.places.size() == 1 ? "" : "s"),
+                  key.hint);
+  }
+}
+
 Plan Reader::read(const Node& root) {
   Plan plan;
   path_ = "plan";
   if (!is_map(root)) {
+    return plan;
+  }
+  is_of_ros_ = has_driver(root, 3);
+  if (!read_defaults(root)) {
     return plan;
   }
   bool has_master = false;
@@ -374,10 +496,13 @@ Plan Reader::read(const Node& root) {
     } else if (name.text == "master") {
       has_master = true;
       read_master(name, root.value(n), plan.master);
-    } else if (name.text.substr(0, 1) != "." && has_name(name)) {  // .name: a disabled section
-      read_slave(name, root.value(n), plan.slaves.emplace_back());
+    } else if (name.text == "nodes") {
+      read_nodes(root.value(n), plan);
+    } else if (name.text != "defaults") {
+      read_node(name, root.value(n), plan);
     }
   }
+  report_ros(plan);
   if (plan.slaves.size() > most_slaves) {
     findings_.add(rules::node_id, plan.slaves[most_slaves].span,
                   fmt::format("{} nodes and a master: a network has 127 node-IDs", plan.slaves.size()),

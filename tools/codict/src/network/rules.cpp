@@ -7,6 +7,8 @@ namespace rules {
 
 const Rule yaml{"net-yaml", Severity::error, "the plan is not a YAML document that codict reads"};
 const Rule key{"net-key", Severity::error, "unknown key in a plan"};
+const Rule key_ros{"net-key-ros", Severity::warning, "key in a plan of ROS 2 that has no effect here"};
+const Rule defaults{"net-defaults", Severity::note, "defaults of a plan, used for each node"};
 const Rule value{"net-value", Severity::error, "value of a key of the plan is out of range or of the wrong kind"};
 const Rule missing{"net-missing", Severity::error, "missing key in a plan"};
 const Rule node_id{"net-node-id", Severity::error, "node-ID that is missing, invalid or used twice"};
@@ -43,6 +45,8 @@ const Rule concise{"net-concise", Severity::warning, "configured value that a co
 const std::vector<const Rule*>& all_rules() {
   static const std::vector<const Rule*> all = {&rules::yaml,
                                                &rules::key,
+                                               &rules::key_ros,
+                                               &rules::defaults,
                                                &rules::value,
                                                &rules::missing,
                                                &rules::node_id,

@@ -12,6 +12,8 @@ namespace lexican::codict::network {
 namespace rules {
 extern const Rule yaml;
 extern const Rule key;
+extern const Rule key_ros;
+extern const Rule defaults;
 extern const Rule value;
 extern const Rule missing;
 extern const Rule node_id;
