@@ -69,6 +69,14 @@ using Owners = std::map<std::uint64_t, Owner>;  // by identifier; bit 32 is set 
 
 std::uint64_t key_of(const CobId& cob_id) { return cob_id.identifier() | (cob_id.is_extended() ? 1ULL << 32 : 0); }
 
+// Returns the first node that has a node-ID.
+std::optional<std::size_t> node_of(const Network& network, std::uint64_t node_id) {
+  const auto place = std::find_if(network.nodes.begin(), network.nodes.end(),
+                                  [node_id](const Node& node) { return node.node_id == node_id; });
+  return place != network.nodes.end() ? std::optional(static_cast<std::size_t>(place - network.nodes.begin()))
+                                      : std::nullopt;
+}
+
 void check_cob_id(const Network& network, std::size_t at, const CobId& cob_id, Owners& owners,
                   NetworkFindings& findings) {
   const Node& node = network.nodes[at];
@@ -94,7 +102,8 @@ void check_cob_ids(const Network& network, NetworkFindings& findings) {
     owners[key_of(sync)] = {at, "SYNC"};
   }
   for (std::size_t n = 0; n < network.nodes.size(); ++n) {
-    if (network.nodes[n].node_id == 0) {
+    const std::uint8_t node_id = network.nodes[n].node_id;
+    if (node_id == 0 || node_of(network, node_id) != n) {  // reported by check_nodes()
       continue;
     }
     for (const CobId& cob_id : network.nodes[n].cob_ids()) {
@@ -173,13 +182,6 @@ void check_links(const Network& network, const Links& links, NetworkFindings& fi
 // Heartbeat and guarding -------------------------------------------------------------------------------------------
 
 namespace {
-
-std::optional<std::size_t> node_of(const Network& network, std::uint64_t node_id) {
-  const auto place = std::find_if(network.nodes.begin(), network.nodes.end(),
-                                  [node_id](const Node& node) { return node.node_id == node_id; });
-  return place != network.nodes.end() ? std::optional(static_cast<std::size_t>(place - network.nodes.begin()))
-                                      : std::nullopt;
-}
 
 void check_consumer(const Network& network, std::size_t at, const codict::Sub& sub, std::vector<bool>& is_monitored,
                     NetworkFindings& findings) {
