@@ -9,6 +9,8 @@
 
 #include "eds/document.hpp"
 #include "eds/read.hpp"
+#include "program.hpp"
+#include "reading.hpp"
 #include "xdd_reading.hpp"
 
 using lexican::codict::Description;
@@ -231,6 +233,33 @@ TEST_CASE("diff: the values of an enumeration are compared for each object of it
   CHECK(told(replaced(type, "\"2\"", "\"3\"")) ==
         "breaking 2000h allowed value: 2 -> \ncompatible 2000h allowed value:  -> 3\n");
   CHECK(told(replaced(type, ">on<", ">ready<")) == "text 2000h name of allowed value 1: on -> ready\n");
+}
+
+TEST_CASE("diff: an empty attribute or element of an XDD equals a missing one") {
+  const std::string device = test::bytes_of(test::fixture("xdd/device10.xdd"));
+  for (const std::string attribute : {" fileCreator=\"Ada\"", " subNumber=\"3\"", " denotation=\"", " PDOmapping=\"",
+                                      " accessType=\"", " multiplier=\"", " nrOfTxPDO=\""}) {
+    CAPTURE(attribute);
+    const std::size_t name = device.find(attribute);
+    REQUIRE(name != std::string::npos);
+    const std::size_t value = device.find('"', name) + 1;
+    const std::size_t end = device.find('"', value);
+    const test::XmlReading empty(device.substr(0, value) + device.substr(end));
+    const test::XmlReading missing(device.substr(0, name) + device.substr(end + 1));
+    CHECK(compare(empty.device, missing.device).empty());
+    CHECK(compare(missing.device, empty.device).empty());
+  }
+  for (const std::string element : {"<label lang=\"de\">", "<description lang=\"en\">"}) {
+    CAPTURE(element);
+    const std::size_t begin = device.find(element);
+    REQUIRE(begin != std::string::npos);
+    const std::size_t text = begin + element.size();
+    const std::size_t end = device.find('<', text);
+    const test::XmlReading empty(device.substr(0, text) + device.substr(end));
+    const test::XmlReading missing(device.substr(0, begin) + device.substr(device.find('>', end) + 1));
+    CHECK(compare(empty.device, missing.device).empty());
+    CHECK(compare(missing.device, empty.device).empty());
+  }
 }
 
 TEST_CASE("diff: objects of modules are compared by module") {

@@ -19,7 +19,7 @@ void check_pdos(const Field<std::uint16_t>& number, std::uint16_t first, const D
     return object.index >= first && object.index < first + 0x200;
   });
   const bool may_be_implicit = device.features.compact_pdo.value != 0 && number.value > described;
-  if (number.is_given && number.value != described && !may_be_implicit) {
+  if (!number.is_empty() && number.value != described && !may_be_implicit) {
     findings.add(rules::pdo_count, number.span,
                  fmt::format("{} is {}, but the number of described PDOs is {}",
                              first == 0x1400 ? "NrOfRXPDO" : "NrOfTXPDO", number.value, described),

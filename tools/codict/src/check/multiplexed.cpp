@@ -42,7 +42,7 @@ void check_multiplexed(const Device& device, Findings& findings) {
       continue;
     }
     const Value& mode = value_in_force(*pdo.mapping->find(0));
-    if (device.features.group_messaging.is_given && !device.features.group_messaging.value) {
+    if (!device.features.group_messaging.is_empty() && !device.features.group_messaging.value) {
       findings.add(rules::multiplexed, mode.span, "multiplexed PDO, but GroupMessaging is 0",
                    "set GroupMessaging=1, or correct sub-index 0");
     }

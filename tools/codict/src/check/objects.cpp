@@ -15,7 +15,7 @@ namespace {
 void check_sub_number(const Object& object, Findings& findings) {
   const auto number =
       std::count_if(object.subs.begin(), object.subs.end(), [](const Sub& sub) { return sub.sub_index != 0xFF; });
-  if (object.compact.value != 0 || !object.sub_number.is_given || object.sub_number.value == number) {
+  if (object.compact.value != 0 || object.sub_number.is_empty() || object.sub_number.value == number) {
     return;
   }
   findings.add(rules::sub_number, object.sub_number.span,

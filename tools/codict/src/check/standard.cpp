@@ -81,7 +81,7 @@ constexpr std::array<Type, 33> types = {{
 void check_kind(const Object& object, Findings& findings) {
   const auto* const kind =
       std::find_if(kinds.begin(), kinds.end(), [&object](const Kind& each) { return each.indexes.has(object.index); });
-  if (kind != kinds.end() && object.object_code.is_given && object.object_code.value != kind->code) {
+  if (kind != kinds.end() && !object.object_code.is_empty() && object.object_code.value != kind->code) {
     findings.add(
         rules::standard_kind, object.object_code.span,
         fmt::format("object type {}, but CiA 301 defines {}", name_of(object.object_code.value), name_of(kind->code)),

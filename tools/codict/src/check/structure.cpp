@@ -48,7 +48,7 @@ void check_capacity(const Entry& entry, Findings& findings) {
   const Value& value = entry.default_value;
   const std::size_t size = value.kind == Value::Kind::octets ? value.octets->size() : value.text.size();
   const bool is_string = value.kind == Value::Kind::octets || value.kind == Value::Kind::text;
-  if (is_string && entry.node->byte_length->is_given && size > entry.node->byte_length->value) {
+  if (is_string && !entry.node->byte_length->is_empty() && size > entry.node->byte_length->value) {
     findings.add(
         rules::string_capacity, value.span,
         fmt::format("default value has {} bytes, but CO_byteLength is {}", size, entry.node->byte_length->value),

@@ -79,13 +79,34 @@ class Counter {
   std::vector<Loss> losses_;
 };
 
-std::string language_of(const Label& label) { return label.language; }
+// Returns the languages of labels with a text.
+Details languages_of(const std::vector<Label>& labels) {
+  Details languages;
+  for (const Label& label : labels) {
+    append(languages, Details(label.text.is_empty() ? 0 : 1, label.language));
+  }
+  return languages;
+}
+
+bool is_blank(const Unit& unit) {
+  return unit.uri.is_empty() && unit.multiplier.is_empty() && languages_of(unit.texts.labels).empty() &&
+         languages_of(unit.texts.descriptions).empty();
+}
+
+bool is_blank(const Commissioning& commissioning) {
+  const auto& c = commissioning;
+  const std::array<const Text*, 9> all = {&c.node_id,        &c.node_name,      &c.bit_rate,
+                                          &c.network_number, &c.network_name,   &c.is_manager,
+                                          &c.serial_number,  &c.node_reference, &c.network_reference};
+  return std::all_of(all.begin(), all.end(), [](const Text* text) { return text->is_empty(); });
+}
+
 std::string id_of(const TypeDefinition& type) { return type.name.is_empty() ? type.id.text : type.name.text; }
 
 void count_configuration(const Device& device, Counter& counter) {
-  counter.each("configured values", [](const Entry& entry) { return one_if(entry.actual_value->is_given); });
-  counter.each("denotations", [](const Entry& entry) { return one_if(entry.denotation->is_given); });
-  counter.add("commissioning", one_if(device.commissioning.is_given));
+  counter.each("configured values", [](const Entry& entry) { return one_of(*entry.actual_value); });
+  counter.each("denotations", [](const Entry& entry) { return one_of(*entry.denotation); });
+  counter.add("commissioning", one_if(!is_blank(device.commissioning)));
 }
 
 Details properties_of(const Entry& entry) {
@@ -97,11 +118,12 @@ Details properties_of(const Entry& entry) {
                                                                      {*node.byte_length, "CO_byteLength"},
                                                                      {*node.extension_io, "CO_extensionIO"},
                                                                      {*node.flags_pdo, "CO_flagsPDO"}}};
-  Details names = each_of(*entry.properties, [](const Property& property) { return property.name; });
+  Details names;
+  for (const Property& property : *entry.properties) {
+    append(names, Details(property.value.is_empty() ? 0 : 1, property.name));
+  }
   for (const auto& [text, name] : known) {
-    if (text.is_given && (&text != &*node.count_label || !text.is_empty())) {
-      names.emplace_back(name);
-    }
+    append(names, Details(text.is_empty() ? 0 : 1, name));
   }
   return names;
 }
@@ -111,14 +133,15 @@ void count_words_for_eds(const Device& device, Counter& counter) {
   counter.each("labels", [](const Entry& entry) {
     Details languages;
     for (const Label& label : entry.texts->labels) {
-      append(languages, Details(label.text.text != entry.name.text ? 1 : 0, label.language));
+      const bool is_other = !label.text.is_empty() && label.text.text != entry.name.text;
+      append(languages, Details(is_other ? 1 : 0, label.language));
     }
     return languages;
   });
   const bool has_python_keys = device.dialect == "python-canopen";
   if (!has_python_keys) {
-    counter.each("descriptions", [](const Entry& entry) { return each_of(entry.texts->descriptions, language_of); });
-    counter.each("units", [](const Entry& entry) { return one_if(entry.unit->is_given); });
+    counter.each("descriptions", [](const Entry& entry) { return languages_of(entry.texts->descriptions); });
+    counter.each("units", [](const Entry& entry) { return one_if(!is_blank(*entry.unit)); });
     counter.each("multipliers", [](const Entry& entry) { return one_of(entry.multiplier); });
   }
 }
@@ -236,7 +259,11 @@ void count_for_eds(const Device& device, Counter& counter) {
   count_headers_for_eds(device, counter);
   counter.each("offsets", [](const Entry& entry) { return one_of(entry.offset); });
   counter.each("allowed values", [](const Entry& entry) {
-    return each_of(entry.allowed->values, [](const AllowedValue& allowed) { return allowed.value.text; });
+    Details values;
+    for (const AllowedValue& allowed : entry.allowed->values) {
+      append(values, Details(allowed.value.is_empty() ? 0 : 1, allowed.value.text));
+    }
+    return values;
   });
   counter.each("ranges", [](const Entry& entry) {
     const std::vector<Range>& ranges = entry.allowed->ranges;
@@ -248,7 +275,7 @@ void count_for_eds(const Device& device, Counter& counter) {
     return one_if(
         std::any_of(ranges.begin(), ranges.end(), [](const Range& range) { return !range.step->is_empty(); }));
   });
-  counter.each("substitute values", [](const Entry& entry) { return one_if(entry.substitute_value->is_given); });
+  counter.each("substitute values", [](const Entry& entry) { return one_of(*entry.substitute_value); });
   counter.each("properties", properties_of);
   counter.add("groups", each_of(device.groups, [](const Group& group) { return group.id.text; }));
   counter.add("data types", each_of(device.types, id_of));
@@ -257,10 +284,17 @@ void count_for_eds(const Device& device, Counter& counter) {
   counter.add("templates", std::move(templates));
   counter.add("parameters without an object",
               each_of(device.parameters, [](const Entry& entry) { return entry.parameter_id->text; }));
-  Details codes = each_of(device.identity.order_codes, [](const Text& code) { return code.text; });
+  Details codes;
+  for (const Text& code : device.identity.order_codes) {
+    append(codes, Details(code.is_empty() ? 0 : 1, code.text));
+  }
   codes.erase(codes.begin(), codes.begin() + (codes.empty() ? 0 : 1));
   counter.add("order codes", std::move(codes));
-  counter.add("versions", each_of(device.identity.versions, [](const Version& version) { return version.text.text; }));
+  Details versions;
+  for (const Version& version : device.identity.versions) {
+    append(versions, Details(version.text.is_empty() ? 0 : 1, version.text.text));
+  }
+  counter.add("versions", std::move(versions));
 }
 
 // Counts file names of domains, which only a DCF can contain.

@@ -183,6 +183,18 @@ void compare_allowed(const std::vector<AllowedValue>& before, const std::vector<
   }
 }
 
+bool is_blank(const Range& range) { return range.minimum.is_empty() && range.maximum.is_empty(); }
+bool is_blank(const AllowedValue& allowed) { return allowed.value.is_empty(); }
+
+// Returns the elements that have a value.
+template <typename Element>
+std::vector<Element> given(const std::vector<Element>& elements) {
+  std::vector<Element> result;
+  std::copy_if(elements.begin(), elements.end(), std::back_inserter(result),
+               [](const Element& element) { return !is_blank(element); });
+  return result;
+}
+
 // Words ----------------------------------------------------------------------------------------------------------
 
 void compare_labels(std::string_view what, const std::vector<Label>& before, const std::vector<Label>& after,
@@ -200,18 +212,21 @@ void compare_labels(std::string_view what, const std::vector<Label>& before, con
   }
 }
 
-// Returns the labels that differ from the name; an EDS has no others.
-std::vector<Label> own_labels(const Entry& entry) {
-  std::vector<Label> labels;
-  std::copy_if(entry.texts->labels.begin(), entry.texts->labels.end(), std::back_inserter(labels),
-               [&entry](const Label& label) { return label.text.text != entry.name.text; });
-  return labels;
+// Returns the labels that have a text and differ from the name. An EDS has no others; an empty one equals a missing
+// one.
+std::vector<Label> own_labels(const std::vector<Label>& labels, const std::string& name) {
+  std::vector<Label> own;
+  std::copy_if(labels.begin(), labels.end(), std::back_inserter(own),
+               [&name](const Label& label) { return !label.text.is_empty() && label.text.text != name; });
+  return own;
 }
 
 void compare_words(const Entry& before, const Entry& after, const Recorder& recorder) {
   recorder.text(Kind::text, "name", before.name, after.name);
-  compare_labels("label", own_labels(before), own_labels(after), recorder);
-  compare_labels("description", before.texts->descriptions, after.texts->descriptions, recorder);
+  compare_labels("label", own_labels(before.texts->labels, before.name.text),
+                 own_labels(after.texts->labels, after.name.text), recorder);
+  compare_labels("description", own_labels(before.texts->descriptions, ""), own_labels(after.texts->descriptions, ""),
+                 recorder);
   recorder.text(Kind::text, "denotation", before.denotation, after.denotation);
 }
 
@@ -260,8 +275,9 @@ void compare_entries(const Entry& before, const Entry& after, const Recorder& re
   compare_rights(before, after, recorder);
   compare_defaults(before, after, recorder);
   compare_limits(before, after, recorder);
-  compare_ranges(before.allowed->ranges, after.allowed->ranges, recorder);
-  compare_allowed(allowed_values_of(recorder.before, before), allowed_values_of(recorder.after, after), recorder);
+  compare_ranges(given(before.allowed->ranges), given(after.allowed->ranges), recorder);
+  compare_allowed(given(allowed_values_of(recorder.before, before)), given(allowed_values_of(recorder.after, after)),
+                  recorder);
   recorder.text(Kind::breaking, "unit", before.unit->uri, after.unit->uri);
   recorder.text(Kind::breaking, "unit's multiplier", before.unit->multiplier, after.unit->multiplier);
   recorder.text(Kind::breaking, "multiplier", before.multiplier, after.multiplier);

@@ -24,9 +24,12 @@ void compare_identity(const Identity& before, const Identity& after, const Recor
   recorder.text(Kind::text, "product family", before.product_family, after.product_family);
 }
 
+// Returns false for a malformed rate of an XDD, which is read as 0 (automatic) and not supported.
+bool is_rate(const BitRate& rate) { return rate.kbit != 0 || rate.supported.value; }
+
 const BitRate* find_rate(const std::vector<BitRate>& rates, std::uint32_t kbit) {
-  const auto place =
-      std::find_if(rates.begin(), rates.end(), [kbit](const BitRate& rate) { return rate.kbit == kbit; });
+  const auto place = std::find_if(rates.begin(), rates.end(),
+                                  [kbit](const BitRate& rate) { return rate.kbit == kbit && is_rate(rate); });
   return place != rates.end() ? &*place : nullptr;
 }
 
@@ -39,10 +42,12 @@ void compare_rate(std::uint32_t kbit, const BitRate* before, const BitRate* afte
 
 void compare_rates(const std::vector<BitRate>& before, const std::vector<BitRate>& after, const Recorder& recorder) {
   for (const BitRate& rate : before) {
-    compare_rate(rate.kbit, &rate, find_rate(after, rate.kbit), recorder);
+    if (is_rate(rate)) {
+      compare_rate(rate.kbit, &rate, find_rate(after, rate.kbit), recorder);
+    }
   }
   for (const BitRate& rate : after) {
-    if (find_rate(before, rate.kbit) == nullptr) {
+    if (is_rate(rate) && find_rate(before, rate.kbit) == nullptr) {
       compare_rate(rate.kbit, nullptr, &rate, recorder);
     }
   }

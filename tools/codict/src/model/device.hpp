@@ -186,7 +186,7 @@ struct Entry {
   Span extent;                             ///< the whole text: the section, or the element
   Span parameter_extent;                   ///< the whole text of the parameter that describes it [311]
 
-  bool has_value() const { return default_value.is_given || actual_value->is_given; }
+  bool has_value() const { return !default_value.is_empty() || !actual_value->is_empty(); }
 };
 
 /// Returns the value with which a device starts: the configured value, else the default value.

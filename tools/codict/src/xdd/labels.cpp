@@ -155,10 +155,14 @@ bool read_label_element(LabelGroup& texts, pugi::xml_node child, std::vector<Opa
 }
 
 Text first_of(const LabelGroup& texts) {
-  if (!texts.labels.empty()) {
-    return texts.labels.front().text;
+  for (const std::vector<Label>* const labels : {&texts.labels, &texts.descriptions}) {
+    for (const Label& label : *labels) {
+      if (!label.text.is_empty()) {
+        return label.text;
+      }
+    }
   }
-  return texts.descriptions.empty() ? Text() : texts.descriptions.front().text;
+  return {};
 }
 
 void read_unit(Unit& unit, pugi::xml_node element, std::vector<OpaquePart>& others, const Reader& reader) {

@@ -194,7 +194,7 @@ void interpret_direction(Field<Access>& access, Findings& findings) {
     access.value = Access::wo;
   } else if (access.text == "readWriteOutput") {
     access.value = Access::rww;
-  } else if (access.is_given) {
+  } else if (!access.is_empty()) {
     findings.add(rules::access_unknown, access.span, fmt::format("{} is not an access", in_quotes(access.text)),
                  "write readOnly, writeOnly or readWriteOutput");
   }

@@ -161,11 +161,11 @@ void choose(T& chosen, const T& own, std::string_view attribute, bool is_same, E
   if (!own.is_given) {
     return;
   }
-  if (!chosen.is_given) {
+  if (chosen.is_empty()) {
     chosen = own;
     return;
   }
-  if (chosen.text == own.text) {
+  if (own.is_empty() || chosen.text == own.text) {
     return;
   }
   if (!is_same) {
@@ -204,7 +204,7 @@ void merge(Entry& entry, Entry& own, const Reader& reader) {
   entry.pdo_mapping = std::move(own.pdo_mapping);
   entry.flags = std::move(own.flags);
   append(entry.others, own.others);
-  if (own.node->storage_group.is_given && !entry.node->storage_group.is_given) {
+  if (!own.node->storage_group.is_empty() && entry.node->storage_group.is_empty()) {
     entry.node.edit().storage_group = std::move(own.node.edit().storage_group);
   }
   const DataType& type = data_type(entry.type->code != 0 ? entry.type->code : entry.data_type.value);
@@ -270,13 +270,13 @@ void complete(Entry& entry, Entry& own, const Reader& reader) {
 
 // Uses a label, preferably in English, as the name of an entry without one.
 void complete_name(Entry& entry) {
-  if (!entry.name.is_given) {
+  if (entry.name.is_empty()) {
     entry.name.text = text_in(entry.texts->labels, "en");
   }
 }
 
 void complete_access(Entry& entry, bool is_variable, const Reader& reader) {
-  if (!is_variable || entry.access.is_given || entry.access.value != Access::unknown) {
+  if (!is_variable || !entry.access.is_empty() || entry.access.value != Access::unknown) {
     return;
   }
   if (!entry.parameter_id->is_empty()) {
@@ -292,7 +292,7 @@ void complete_type(Entry& entry, bool is_variable, const Reader& reader) {
   if (entry.object_code.value == ObjectCode::domain && entry.data_type.value == 0) {
     entry.data_type.value = type_code::domain;
   }
-  if (is_variable && entry.data_type.value == 0 && !entry.type->reference.is_given) {
+  if (is_variable && entry.data_type.value == 0 && entry.type->reference.is_empty()) {
     reader.findings.add(rules::type_missing, entry.span, "data type is missing", "add dataType");
   }
 }
@@ -317,13 +317,13 @@ void inherit_from_array(Sub& sub, const Object& object) {
   if (!is_element || !sub.parameter_id->is_empty()) {
     return;
   }
-  if (!sub.data_type.is_given) {
+  if (sub.data_type.is_empty()) {
     sub.data_type.value = object.data_type.value;
   }
-  if (!sub.access.is_given) {
+  if (sub.access.is_empty()) {
     sub.access.value = object.access.value;
   }
-  if (!sub.pdo_mapping.is_given) {
+  if (sub.pdo_mapping.is_empty()) {
     sub.pdo_mapping.value = object.pdo_mapping.value;
   }
 }
@@ -334,8 +334,8 @@ bool read_number(const Text& number, std::size_t wanted, std::uint64_t largest, 
     return true;
   }
   reader.findings.add(rules::index, number.is_given ? number.span : place,
-                      number.is_given ? fmt::format("{} is not an index; not used", in_quotes(number.text))
-                                      : "index is missing; not used",
+                      !number.is_empty() ? fmt::format("{} is not an index; not used", in_quotes(number.text))
+                                         : "index is missing; not used",
                       "write hexadecimal digits");
   return false;
 }
@@ -393,7 +393,7 @@ bool read_object(pugi::xml_node element, std::vector<bool>& seen, const Reader& 
   object.sub_number = part.sub_number;
   interpret_number(object.sub_number, 0xFF, reader.findings);
   const std::vector<pugi::xml_node> subs = std::move(part.subs);
-  interpret_part(part, !subs.empty() || object.sub_number.is_given, object, reader);
+  interpret_part(part, !subs.empty() || !object.sub_number.is_empty(), object, reader);
   const bool is_variable = !has_sub_objects(object.object_code.value);
   if (is_variable && !subs.empty()) {
     reader.findings.add(rules::object_type, object.object_code.is_given ? object.object_code.span : object.span,

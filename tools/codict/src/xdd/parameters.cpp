@@ -216,7 +216,7 @@ void inherit(Entry& entry, const Reader& reader) {
       entry.type.edit().code = type.code;
     }
   }
-  if (!entry.access.is_given) {
+  if (entry.access.is_empty()) {
     Field<Access> access;
     static_cast<Text&>(access) = attribute_text(element, "access", reader);
     interpret_access(access, true, reader);
@@ -360,7 +360,7 @@ void read_parameter(pugi::xml_node element, Entry& entry, const Reader& reader) 
   if (reader.shared.dialect == Dialect::container) {
     check_order(element, reader);
   }
-  if (entry.template_id->is_given) {
+  if (!entry.template_id->is_empty()) {
     inherit(entry, reader);
   }
 }

@@ -173,9 +173,9 @@ void read_file_info(pugi::xml_node body, const Reader& reader) {
   for (const Slot<FileInfo>& slot : file_slots) {
     const Text& text = slot.member(said);
     Text& first = slot.member(file);
-    if (text.is_given && !first.is_given) {
+    if (text.is_given && first.is_empty()) {
       first = text;
-    } else if (text.is_given && first.text != text.text) {
+    } else if (!text.is_empty() && first.text != text.text) {
       opaque.push_back({"@" + std::string(slot.name), text, {}, text.span});
     }
   }
