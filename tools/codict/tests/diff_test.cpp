@@ -262,6 +262,16 @@ TEST_CASE("diff: an empty attribute or element of an XDD equals a missing one") 
   }
 }
 
+TEST_CASE("diff: DataType, AccessType and PDOMapping of an object with sub-objects break no networks") {
+  const std::string record =
+      "[2100]\nParameterName=R\nObjectType=9\nDataType=7\nAccessType=rw\nPDOMapping=1\n"
+      "[2100sub1]\nParameterName=First\nDataType=5\nAccessType=rw\n";
+  CHECK(line(record, replaced(record, "DataType=7\n", "")) == "compatible 2100h data type: 7 -> ");
+  CHECK(line(record, replaced(record, "AccessType=rw", "AccessType=ro")) == "compatible 2100h access: rw -> ro");
+  CHECK(line(record, replaced(record, "PDOMapping=1", "PDOMapping=0")) == "compatible 2100h PDO mapping: 1 -> 0");
+  CHECK(line(record, replaced(record, "DataType=5", "DataType=6")) == "breaking 2100h:1 data type: 5 -> 6");
+}
+
 TEST_CASE("diff: objects of modules are compared by module") {
   const auto coupler = [](const std::string& access) {
     return "[SupportedModules]\nNrOfEntries=1\n[M1ModuleInfo]\nProductName=Input\n[M1FixedObjects]\nNrOfEntries=1\n"

@@ -46,12 +46,17 @@ struct Rights {
   Directions map;
 };
 
+// Returns true if both entries are objects with sub-objects: DataType, AccessType and PDOMapping have no effect there.
+bool are_containers(const Entry& before, const Entry& after) {
+  return has_sub_objects(before.object_code.value) && has_sub_objects(after.object_code.value);
+}
+
 void compare_rights(const Entry& before, const Entry& after, const Recorder& recorder) {
   const Rights old_rights(before);
   const Rights new_rights(after);
   const bool is_more = new_rights.has_all_of(old_rights);
   const bool is_same = is_more && old_rights.has_all_of(new_rights);
-  const Kind kind = is_more ? Kind::compatible : Kind::breaking;
+  const Kind kind = is_more || are_containers(before, after) ? Kind::compatible : Kind::breaking;
   // Access rwr and rww of an EDS equals rw with a mapping direction in an XDD.
   const bool are_both = old_rights.read && old_rights.write && new_rights.read && new_rights.write;
   if (before.access.value != after.access.value && !(is_same && are_both)) {
@@ -271,7 +276,8 @@ void compare_others(const Entry& before, const Entry& after, const Recorder& rec
 
 void compare_entries(const Entry& before, const Entry& after, const Recorder& recorder) {
   recorder.field(Kind::breaking, "object type", before.object_code, after.object_code);
-  recorder.field(Kind::breaking, "data type", before.data_type, after.data_type);
+  recorder.field(are_containers(before, after) ? Kind::compatible : Kind::breaking, "data type", before.data_type,
+                 after.data_type);
   compare_rights(before, after, recorder);
   compare_defaults(before, after, recorder);
   compare_limits(before, after, recorder);
