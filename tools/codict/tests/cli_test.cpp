@@ -386,8 +386,9 @@ TEST_CASE("codict convert: values that the other format cannot express are repor
   CHECK(told.status == 0);
   CHECK(told.err ==
         "codict: xdd/device10.xdd: not in the output: 1 configured values (2000h), 2 denotations (2000h, 2003h), 1 "
-        "commissioning, 2 labels (2000h de, 2002h:1 en), 1 descriptions (1000h en), 2 units (2000h, 2002h:2), 2 bit "
-        "rates (auto-baudRate, defaultValue), 2 features (selfStartingDevice, flyingMaster), 4 texts of the identity "
+        "commissioning, 2 labels (2000h de, 2002h:1 en), 1 descriptions (1000h en), 2 units (2000h, 2002h:2), 1 bit "
+        "rates (auto-baudRate), 1 default bit rates, 2 features (selfStartingDevice, flyingMaster), 4 texts of the "
+        "identity "
         "(vendorText, deviceFamily, productFamily, …), 2 numbers of dynamic channels, 2 allowed values (2000h 0, 2000h "
         "1), 1 steps (2000h), 1 substitute values (2000h), 5 properties (2000h Own, 2000h CO_disabled, 2000h "
         "CO_countLabel, …), 1 groups (G_1), 4 data types (Errors, Identity, Modes, …), 2 templates (TPL_RO, TPL_01), 1 "
@@ -399,6 +400,11 @@ TEST_CASE("codict convert: values that the other format cannot express are repor
   CHECK(std::filesystem::exists(directory / "valve.eds"));
   CHECK(run("convert --strict-loss xdd/device10.xdd -o " + directory / "strict.eds").status == 1);
   CHECK_FALSE(std::filesystem::exists(directory / "strict.eds"));
+  // Empty attributes and elements are no losses.
+  const Ran rate = run("convert --strict-loss xdd/empty_values.xdd -o " + directory / "strict.eds");
+  CHECK(rate.status == 0);
+  CHECK(rate.err == "codict: xdd/empty_values.xdd: not in the output: 1 default bit rates\n");
+  CHECK(std::filesystem::exists(directory / "strict.eds"));
   CHECK(run("convert xdd/device10.xdd --to xdc -o -").out == bytes_of(test::fixture("xdd/device10.xdd")));
 }
 

@@ -203,7 +203,9 @@ int run_convert(const ConvertOptions& options) {
   const std::vector<Loss> losses = losses_of(*input, product->target);
   if (!losses.empty()) {
     report(*input, losses, options.is_all);
-    if (options.is_strict) {
+    const bool is_strict_loss =
+        std::any_of(losses.begin(), losses.end(), [](const Loss& loss) { return !loss.is_minor; });
+    if (options.is_strict && is_strict_loss) {
       return found;
     }
   }

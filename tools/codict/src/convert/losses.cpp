@@ -44,9 +44,9 @@ class Counter {
     }
   }
 
-  void add(std::string_view what, Details places) {
+  void add(std::string_view what, Details places, bool is_minor = false) {
     if (!places.empty()) {
-      losses_.push_back({what, std::move(places)});
+      losses_.push_back({what, std::move(places), is_minor});
     }
   }
   // Adds the losses of all objects and sub-objects.
@@ -153,8 +153,8 @@ void count_headers_for_eds(const Device& device, Counter& counter) {
   for (const BitRate& rate : features.bit_rates) {
     append(rates, Details(rate.kbit == 0 && rate.supported.value ? 1 : 0, "auto-baudRate"));
   }
-  append(rates, Details(features.default_bit_rate.is_empty() ? 0 : 1, "defaultValue"));
   counter.add("bit rates", std::move(rates));
+  counter.add("default bit rates", one_of(features.default_bit_rate), true);  // the supported ones are kept
   const std::array<std::pair<const Field<bool>&, const char*>, 5> flags = {
       {{features.self_starting, "selfStartingDevice"},
        {features.sdo_requesting, "SDORequestingDevice"},

@@ -22,6 +22,7 @@ enum class Target : unsigned char {
 struct Loss {
   std::string_view what;            ///< kind of the lost data: "descriptions"
   std::vector<std::string> places;  ///< "2000h:1 en", one for each loss; empty for data without a place
+  bool is_minor = false;            ///< not counted by --strict-loss
 };
 
 /// Returns the losses of a conversion. All formats but JSON contain the first device only.
