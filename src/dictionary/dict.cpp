@@ -23,6 +23,8 @@ uint32_t first_from(const CO_OBJ* root, uint32_t num, uint32_t key) {
   return from;
 }
 
+CO_OBJ* find(CO_NODE_T& node, uint32_t key) { return find(node.Dict, key); }
+
 uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
   uint16_t num = 0;
   while (num < max && !rules::is_end(root[num].Key)) {
@@ -105,14 +107,14 @@ uint32_t read_number(CO_NODE_T& node, uint32_t key, uint32_t width, uint32_t oth
   uint32_t number = 0;
   CO_ASSERT(width != 0 && width <= sizeof number);
   const uint32_t above = wire::host_is_little_endian ? 0 : sizeof number - width;
-  CO_OBJ* const obj = find(node.Dict, key);
+  CO_OBJ* const obj = find(node, key);
   const bool known =
       obj != nullptr && obj::read(*obj, node, reinterpret_cast<uint8_t*>(&number) + above, width) == CO_ERR_NONE;
   return known ? number : otherwise;
 }
 
-CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value) {
-  return access_value(&dict, key, &value, sizeof value, obj::read);
+CO_ERR read_u32(CO_NODE_T& node, uint32_t key, uint32_t& value) {
+  return access_value(&node.Dict, key, &value, sizeof value, obj::read);
 }
 
 uint32_t read_cob_id(CO_NODE& node, uint32_t key, uint32_t otherwise) {
@@ -120,8 +122,8 @@ uint32_t read_cob_id(CO_NODE& node, uint32_t key, uint32_t otherwise) {
   return wire::is_usable(value) ? value : wire::cob_invalid;
 }
 
-CO_ERR write_u32(CO_DICT& dict, uint32_t key, uint32_t value) {
-  return access_value(&dict, key, &value, sizeof value, obj::write);
+CO_ERR write_u32(CO_NODE_T& node, uint32_t key, uint32_t value) {
+  return access_value(&node.Dict, key, &value, sizeof value, obj::write);
 }
 
 }  // namespace co::dict

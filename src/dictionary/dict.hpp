@@ -9,6 +9,7 @@ namespace co::dict {
 
 // Returns the entry with the index and sub-index of key (flags are ignored); null: there is none.
 [[nodiscard]] CO_OBJ* find(CO_DICT& dict, uint32_t key);
+[[nodiscard]] CO_OBJ* find(CO_NODE_T& node, uint32_t key);
 // Prepares the search of find() after the table has changed. The table must not be empty. Defined only if
 // USE_FAST_PATHS is 1.
 void prepare_search(CO_DICT& dict);
@@ -84,11 +85,11 @@ inline constexpr CO_OBJ_INIT_FUNC checked_by = USE_DICT_CHECK != 0 ? init<rule> 
 [[nodiscard]] uint32_t read_number(CO_NODE_T& node, uint32_t key, uint32_t width, uint32_t otherwise);
 // Reads a value of exactly 4 bytes through the type of its entry. Returns CO_ERR_OBJ_NOT_FOUND, CO_ERR_OBJ_SIZE or the
 // error of the type.
-[[nodiscard]] CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value);
+[[nodiscard]] CO_ERR read_u32(CO_NODE_T& node, uint32_t key, uint32_t& value);
 // Returns the COB-ID of an object; if the object cannot be read, the COB-ID given as otherwise. Returns
 // wire::cob_invalid if that COB-ID cannot be used (wire::is_usable()).
 [[nodiscard]] uint32_t read_cob_id(CO_NODE_T& node, uint32_t key, uint32_t otherwise);
 // Writes a value of 4 bytes, like read_u32() reads it. Unlike CODictWrLong(), does not run deferred work.
-CO_ERR write_u32(CO_DICT& dict, uint32_t key, uint32_t value);
+CO_ERR write_u32(CO_NODE_T& node, uint32_t key, uint32_t value);
 
 }  // namespace co::dict

@@ -29,10 +29,10 @@ void check_mandatory_objects(CO_NODE& node) {
   }
   constexpr uint32_t error_register = CO_DEV(0x1001, 0);
   constexpr uint32_t vendor_id = CO_DEV(0x1018, 1);
-  if (dict::find(node.Dict, error_register) == nullptr) {
+  if (dict::find(node, error_register) == nullptr) {
     error::report(node, CO_ERR_CFG_1001_0, error_register);
   }
-  if (dict::find(node.Dict, vendor_id) == nullptr) {
+  if (dict::find(node, vendor_id) == nullptr) {
     error::report(node, CO_ERR_CFG_1018, vendor_id);
   }
 }

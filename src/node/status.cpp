@@ -12,7 +12,7 @@ constexpr uint32_t key_status = CO_DEV(0x1002, 0);
 
 // Writes the status and triggers its TPDOs. An object with flag A is triggered by its type.
 CO_ERR replace_status(CO_NODE& node, const CO_OBJ& obj, uint32_t status) {
-  const CO_ERR err = dict::write_u32(node.Dict, key_status, status);
+  const CO_ERR err = dict::write_u32(node, key_status, status);
   if (err == CO_ERR_NONE && CO_IS_ASYNC(obj.Key) == 0) {
     event::change_object(node, obj);
   }
@@ -27,7 +27,7 @@ CO_ERR CONodeSetStatus(CO_NODE* node, uint32_t status) {
   if (node == nullptr || node->Dict.Node == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  const CO_OBJ* const obj = dict::find(node->Dict, key_status);
+  const CO_OBJ* const obj = dict::find(*node, key_status);
   if (obj == nullptr) {
     return CO_ERR_OBJ_NOT_FOUND;
   }
@@ -35,7 +35,7 @@ CO_ERR CONodeSetStatus(CO_NODE* node, uint32_t status) {
     return CO_ERR_OBJ_ACC;
   }
   uint32_t before = 0;
-  CO_ERR err = dict::read_u32(node->Dict, key_status, before);
+  CO_ERR err = dict::read_u32(*node, key_status, before);
   if (err == CO_ERR_NONE && before != status) {
     err = replace_status(*node, *obj, status);
     event::run_deferred(*node);
@@ -46,7 +46,7 @@ CO_ERR CONodeSetStatus(CO_NODE* node, uint32_t status) {
 uint32_t CONodeGetStatus(CO_NODE* node) {
   uint32_t status = 0;
   const bool is_known =
-      node != nullptr && node->Dict.Node != nullptr && dict::read_u32(node->Dict, key_status, status) == CO_ERR_NONE;
+      node != nullptr && node->Dict.Node != nullptr && dict::read_u32(*node, key_status, status) == CO_ERR_NONE;
   return is_known ? status : 0;
 }
 

@@ -179,7 +179,7 @@ Groups::Groups(CO_NODE& node, uint16_t index) : node_(node), entry_(nullptr), in
 
 const CO_PARA* Groups::next() {
   while (sub_ <= last_) {
-    const CO_OBJ* const obj = dict::find(node_.Dict, CO_DEV(index_, sub_++));
+    const CO_OBJ* const obj = dict::find(node_, CO_DEV(index_, sub_++));
     // The Init functions have not checked the entries yet: groups are loaded before.
     if (obj != nullptr && (obj->Type == CO_TPARA_STORE || obj->Type == CO_TPARA_RESTORE) &&
         CO_IS_DIRECT(obj->Key) == 0 && data_of<const CO_PARA>(*obj) != nullptr) {
@@ -252,8 +252,8 @@ void on_write(CO_NODE& node, const CO_OBJ& obj) {
     return;
   }
   node.Verified = 0;
-  dict::write_u32(node.Dict, CO_DEV(verify_index, 1), 0);
-  dict::write_u32(node.Dict, CO_DEV(verify_index, 2), 0);
+  dict::write_u32(node, CO_DEV(verify_index, 1), 0);
+  dict::write_u32(node, CO_DEV(verify_index, 2), 0);
 }
 
 void on_mode(CO_NODE& node) {

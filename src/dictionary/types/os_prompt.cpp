@@ -110,7 +110,7 @@ void settle(CO_OS_OUTPUT& output, Outlet outlet) {
 // have moved the entry.
 void on_time(void* output_pointer) {
   CO_OS_OUTPUT& output = *static_cast<CO_OS_OUTPUT*>(output_pointer);
-  const CO_OBJ* const obj = dict::find(output.Node->Dict, output.Key);
+  const CO_OBJ* const obj = dict::find(*output.Node, output.Key);
   if (obj == nullptr) {
     return;
   }
@@ -182,7 +182,7 @@ CO_ERR COOsPrint(CO_NODE* node, uint8_t sub, const uint8_t* text, uint16_t lengt
   if (node == nullptr || node->Dict.Node == nullptr || text == nullptr || sub < sub_out || sub > sub_err) {
     return CO_ERR_BAD_ARG;
   }
-  CO_OBJ* const obj = dict::find(node->Dict, CO_DEV(index_prompt, sub));
+  CO_OBJ* const obj = dict::find(*node, CO_DEV(index_prompt, sub));
   CO_OS_OUTPUT* const output = obj != nullptr && obj->Type == CO_TOS_STDOUT ? output_of(*obj) : nullptr;
   if (output == nullptr) {
     return CO_ERR_OBJ_NOT_FOUND;

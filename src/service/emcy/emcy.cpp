@@ -115,7 +115,7 @@ uint8_t update_register(CO_NODE& node) {
 // Writes the error register to 1001h. An entry with flag D is not written, because it may be in read-only memory.
 void write_register(CO_NODE& node) {
   node.Emcy.RegisterChanged = 0;
-  CO_OBJ* const obj = dict::find(node.Dict, key_register);
+  CO_OBJ* const obj = dict::find(node, key_register);
   if (obj != nullptr && CO_IS_DIRECT(obj->Key) == 0) {
     uint8_t bits = node.Emcy.Register;
     error::report(node, obj::write(*obj, node, &bits, sizeof bits), key_register);
@@ -220,7 +220,7 @@ void init(CO_NODE& node) {
   init_history(node);
   node.Emcy.Register = static_cast<uint8_t>(dict::read_number(node, key_register, sizeof(uint8_t), node.Emcy.Register));
   update_register(node);
-  if (USE_DICT_CHECK != 0 && node.Emcy.Root != nullptr && dict::find(node.Dict, key_cob_id) == nullptr) {
+  if (USE_DICT_CHECK != 0 && node.Emcy.Root != nullptr && dict::find(node, key_cob_id) == nullptr) {
     error::report(node, CO_ERR_CFG_1014_0, key_cob_id);
   }
 }

@@ -40,7 +40,7 @@ void add(CO_NODE* node_pointer, uint32_t entry) {
     ++history.Num;
   }
   const uint32_t key = CO_DEV(index, history.Off);
-  CO_OBJ* const place = dict::find(node.Dict, key);
+  CO_OBJ* const place = dict::find(node, key);
   const CO_ERR err =
       place == nullptr ? CO_ERR_OBJ_NOT_FOUND : CO_TUNSIGNED32->Write(place, &node, &entry, sizeof entry);
   error::report(node, err, key);
@@ -51,7 +51,7 @@ CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
   const uint8_t sub = CO_GET_SUB(obj->Key);
   if (sub == 0) {
     const CO_ERR err = dict::check_type(*obj, *node, rules::emcy_history_number);
-    const bool has_entries = dict::find(node->Dict, CO_DEV(index, 1)) != nullptr;
+    const bool has_entries = dict::find(*node, CO_DEV(index, 1)) != nullptr;
     return err == CO_ERR_NONE && !has_entries ? CO_ERR_TYPE_INIT : err;
   }
   uint8_t& found = node->Emcy.Hist.Found;
@@ -71,7 +71,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     *static_cast<uint8_t*>(buffer) = history.Num;
     return CO_ERR_NONE;
   }
-  CO_OBJ* const place = sub > history.Num ? nullptr : dict::find(node->Dict, CO_DEV(index, place_of(history, sub)));
+  CO_OBJ* const place = sub > history.Num ? nullptr : dict::find(*node, CO_DEV(index, place_of(history, sub)));
   if (place == nullptr) {
     COObjTypeUserSDOAbort(obj, node, CO_SDO_ERR_NO_DATA);
     return CO_ERR_TYPE_RD;

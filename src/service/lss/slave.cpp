@@ -77,7 +77,7 @@ constexpr Event event_of(uint8_t command) {
 
 // Reads a part of the LSS address: sub-indices 1…4 of 1018h.
 bool read_part(CO_NODE& node, uint8_t part, uint32_t& number) {
-  return dict::read_u32(node.Dict, CO_DEV(0x1018, part + 1U), number) == CO_ERR_NONE;
+  return dict::read_u32(node, CO_DEV(0x1018, part + 1U), number) == CO_ERR_NONE;
 }
 
 uint32_t part_of(CO_NODE& node, unsigned part) {

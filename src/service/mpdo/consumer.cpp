@@ -52,7 +52,7 @@ CO_OBJ* find(CO_NODE& node, const CO_PDO_MAP& map, uint32_t low) {
   if (is_sam(map)) {
     return dispatch(node, key | wire::mpdo_address(low));
   }
-  CO_OBJ* const obj = dict::find(node.Dict, key);
+  CO_OBJ* const obj = dict::find(node, key);
   return check_object(node, Direction::receive, obj, key) == CO_ERR_NONE ? obj : nullptr;
 }
 

@@ -17,7 +17,7 @@ CO_ERR worse_of(CO_ERR err, CO_ERR next) { return err == CO_ERR_NONE || next == 
 // Adds the entries of a list that are not 0, with indices first…last, in the order of the dictionary.
 template <class T>
 CO_ERR resolve_entries(CO_NODE& node, uint16_t first, uint16_t last, CO_ERR (*add)(CO_NODE&, T)) {
-  const CO_OBJ* const begin = dict::find(node.Dict, CO_DEV(first, 1));
+  const CO_OBJ* const begin = dict::find(node, CO_DEV(first, 1));
   if (begin == nullptr) {
     return CO_ERR_OBJ_MAP_LEN;
   }
@@ -44,14 +44,14 @@ CO_ERR check_block(CO_NODE& node, Direction direction, uint32_t key, uint8_t num
   }
   CO_ERR err = CO_ERR_NONE;
   for (uint8_t n = 0; n < num && err == CO_ERR_NONE; ++n, key += wire::mpdo_next_sub) {
-    err = check_object(node, direction, dict::find(node.Dict, key), key);
+    err = check_object(node, direction, dict::find(node, key), key);
   }
   return err;
 }
 
 // Returns the number of the entry with the key. It exists: check_block() has found it.
 uint16_t entry_of(CO_NODE& node, uint32_t key) {
-  const CO_OBJ* const obj = dict::find(node.Dict, key);
+  const CO_OBJ* const obj = dict::find(node, key);
   CO_ASSERT(obj != nullptr);
   return static_cast<uint16_t>(obj - node.Dict.Root);
 }

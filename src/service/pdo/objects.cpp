@@ -27,7 +27,7 @@ uint16_t communication_of(const CO_OBJ& obj) {
 // Returns whether the PDO exists; false if its COB-ID is not in the dictionary.
 bool exists(CO_NODE& node, const CO_OBJ& obj) {
   uint32_t cob_id = 0;
-  const CO_ERR err = dict::read_u32(node.Dict, CO_DEV(communication_of(obj), 1), cob_id);
+  const CO_ERR err = dict::read_u32(node, CO_DEV(communication_of(obj), 1), cob_id);
   return err == CO_ERR_NONE && (cob_id & wire::cob_invalid) == 0;
 }
 

@@ -278,7 +278,7 @@ CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy auth
   if (is_static_type(mapping)) {
     return is_skipped(direction, mapping) ? CO_ERR_NONE : CO_ERR_OBJ_MAP_TYPE;
   }
-  CO_OBJ* const obj = dict::find(node.Dict, mapping);
+  CO_OBJ* const obj = dict::find(node, mapping);
   if (obj == nullptr) {
     return dict::has_index(node.Dict, mapping) ? CO_ERR_OBJ_MAP_TYPE : CO_ERR_OBJ_NOT_FOUND;
   }
@@ -309,7 +309,7 @@ Resolved resolve_entries(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP
     if (check(node, direction, mapping, author) != CO_ERR_NONE) {
       return {CO_ERR_OBJ_MAP_TYPE, sub};
     }
-    const CO_OBJ* const obj = is_static_type(mapping) ? nullptr : dict::find(node.Dict, mapping);
+    const CO_OBJ* const obj = is_static_type(mapping) ? nullptr : dict::find(node, mapping);
     const unsigned length = mapping & 0xFFU;
     plain = plain && obj != nullptr && is_plain(node, *obj, direction, length / 8);
     add(node, map, place, obj);

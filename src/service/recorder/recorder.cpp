@@ -63,7 +63,7 @@ bool has_number(CO_NODE& node, CO_OBJ& obj, uint32_t bytes) {
 // Finds the object that map contains, in the form of a PDO mapping entry, and checks that it can be recorded.
 CO_ERR find_number(CO_NODE& node, uint32_t map, CO_OBJ*& obj) {
   const uint32_t bits = map & 0xFFU;
-  obj = dict::find(node.Dict, map);
+  obj = dict::find(node, map);
   if (obj == nullptr) {
     return CO_ERR_OBJ_NOT_FOUND;
   }
@@ -303,7 +303,7 @@ void on_remap(CO_NODE& node) {
     }
   }
   for (CO_RECORDER* recorder = node.Recorders.First; recorder != nullptr; recorder = recorder->Next) {
-    const CO_OBJ* const obj = dict::find(node.Dict, recorder->Plot.Key);
+    const CO_OBJ* const obj = dict::find(node, recorder->Plot.Key);
     if (obj == nullptr || !access::is_open(node, *obj, nullptr)) {
       recorder->Plot.Reading = 0;
     }

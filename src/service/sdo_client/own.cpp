@@ -114,7 +114,7 @@ uint32_t access_own(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
   const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
   const access::Nested nested(node, nullptr);
-  CO_OBJ* const obj = dict::find(node.Dict, client.Key);
+  CO_OBJ* const obj = dict::find(node, client.Key);
   const uint32_t abort = stream::check(node, client.Key, obj, direction);
   if (abort != no_abort) {
     return abort;

@@ -46,7 +46,7 @@ Opened ask_application(CO_SDO& channel, const CO_IF_FRM& request) {
   if (!event::is_allowed(node, CO_SDO_ALLOWED)) {
     return {nullptr, CO_SDO_ERR_TOS_STATE};
   }
-  CO_OBJ* const obj = dict::find(node.Dict, channel.Key);
+  CO_OBJ* const obj = dict::find(node, channel.Key);
   return {obj, stream::check(node, channel.Key, obj, access.Direction)};
 }
 

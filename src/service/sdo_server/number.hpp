@@ -34,7 +34,7 @@ inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
   if (!is_enabled || !initiates_number(request.Data[0])) {
     return nullptr;
   }
-  return dict::find(channel.Node->Dict, wire::multiplexer(request));
+  return dict::find(*channel.Node, wire::multiplexer(request));
 }
 
 // Answers a request that find_number() has found an object for. Returns false if the state machine of the server has

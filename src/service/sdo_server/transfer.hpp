@@ -95,7 +95,7 @@ struct Opened {
   restart(channel, request);
   channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
   CO_NODE& node = *channel.Node;
-  CO_OBJ* const obj = found != nullptr ? found : dict::find(node.Dict, channel.Key);
+  CO_OBJ* const obj = found != nullptr ? found : dict::find(node, channel.Key);
   Opened opened = {obj, stream::check(node, channel.Key, obj, transfer)};
   node.RequestObj = opened.abort == no_abort ? obj : nullptr;
   if constexpr (USE_ACCESS_HOOK != 0) {

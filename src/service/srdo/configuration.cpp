@@ -123,7 +123,7 @@ bool add_mapped(CO_NODE& node, CO_SRDO& srdo, uint32_t mapping) {
     return false;
   }
   const uint8_t place = srdo.Num++;
-  const CO_OBJ* const obj = is_placeholder(mapping) ? nullptr : dict::find(node.Dict, mapping);
+  const CO_OBJ* const obj = is_placeholder(mapping) ? nullptr : dict::find(node, mapping);
   srdo.Entry[place] = obj == nullptr ? no_entry : static_cast<uint16_t>(obj - node.Dict.Root);
   srdo.Bytes[place] = static_cast<uint8_t>((mapping & 0xFFU) / 8);
   if (place % 2 == 0) {
@@ -222,7 +222,7 @@ CO_ERR check_mapping(CO_NODE& node, uint32_t mapping, uint32_t rights) {
   if (bits == 0 || bits % 8 != 0 || bits > 8 * all_bytes) {
     return CO_ERR_OBJ_RANGE;
   }
-  CO_OBJ* const obj = dict::find(node.Dict, mapping);
+  CO_OBJ* const obj = dict::find(node, mapping);
   if (obj == nullptr) {
     return CO_ERR_OBJ_NOT_FOUND;
   }
@@ -248,7 +248,7 @@ bool is_valid(CO_NODE& node) {
 // Writes 13FEh without the check of the NMT state. An entry that may be in read-only memory is not written.
 void invalidate(CO_NODE& node) {
   uint8_t none = 0;
-  CO_OBJ* const obj = dict::find(node.Dict, key_valid);
+  CO_OBJ* const obj = dict::find(node, key_valid);
   if (obj == nullptr || (CO_IS_DIRECT(obj->Key) != 0 && CO_IS_WRITE(obj->Key) == 0)) {
     return;
   }
@@ -257,7 +257,7 @@ void invalidate(CO_NODE& node) {
 }
 
 CO_ERR compute_signature(CO_NODE& node, unsigned number, uint16_t& signature) {
-  if (dict::find(node.Dict, CO_DEV(index_of(first_communication, number), 1)) == nullptr) {
+  if (dict::find(node, CO_DEV(index_of(first_communication, number), 1)) == nullptr) {
     return CO_ERR_OBJ_NOT_FOUND;
   }
   const uint8_t mapped = number_of_mapped(node, number);
