@@ -2,6 +2,7 @@
 // 1010h, 1011h and 1020h. [301:7.5.2.13, 7.5.2.14, 7.5.2.23]
 #include "base/events.hpp"
 #include "dictionary/dict.hpp"
+#include "dictionary/types/integer.hpp"
 #include "dictionary/types/place.hpp"
 #include "storage/budget.hpp"
 #include "storage/groups.hpp"
@@ -24,19 +25,40 @@ bool is_all(CO_NODE& node, const CO_OBJ& obj) {
   return CO_GET_SUB(obj.Key) == 1 && dict::read_number(node, CO_DEV(CO_GET_IDX(obj.Key), 0), sizeof(uint8_t), 0) > 1;
 }
 
-// Calls a function for each group that an entry stands for.
-template <class Function>
-void for_groups(CO_NODE& node, const CO_OBJ& obj, Function function) {
+// Type of 1011h; otherwise of 1010h.
+bool is_restore(const CO_OBJ& obj) { return obj.Type == CO_TPARA_RESTORE; }
+
+// Executes "save" or "load" for a group. Null: only asks for the abilities of the groups.
+using Command = CO_ERR (*)(CO_NODE& node, const CO_PARA& group);
+
+// Result of visiting all groups that an entry stands for: the first error of the command, and the flags of all groups.
+struct Visited {
+  CO_ERR first;
+  uint32_t flags;
+};
+
+void visit_one(CO_NODE& node, const CO_PARA& group, Command command, Visited& visited) {
+  visited.flags |= group.Value;
+  if (command != nullptr && is_saved_on_command(group)) {
+    const CO_ERR err = command(node, group);
+    visited.first = visited.first == CO_ERR_NONE ? err : visited.first;
+  }
+}
+
+Visited visit(CO_NODE& node, const CO_OBJ& obj, Command command) {
+  Visited visited = {CO_ERR_NONE, 0};
+  const CO_PARA* group = data_of<const CO_PARA>(obj);
   if (!is_all(node, obj)) {
-    if (data_of<const CO_PARA>(obj) != nullptr) {
-      function(*data_of<const CO_PARA>(obj));
+    if (group != nullptr) {
+      visit_one(node, *group, command, visited);
     }
-    return;
+    return visited;
   }
   Groups groups(node, static_cast<uint16_t>(CO_GET_IDX(obj.Key)));
-  for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
-    function(*group);
+  while ((group = groups.next()) != nullptr) {
+    visit_one(node, *group, command, visited);
   }
+  return visited;
 }
 
 template <const rules::Rule& number, const rules::Rule& entry>
@@ -51,44 +73,35 @@ uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
 
 // Returns the operations that the network can execute on the groups of an entry. A group is stored autonomously only in
 // an atomic memory: power may fail at any of these stores. [301:7.5.2.13 figure 60]
-template <uint32_t bits>
 uint32_t abilities(CO_NODE& node, const CO_OBJ& obj) {
-  uint32_t all = 0;
-  for_groups(node, obj, [&](const CO_PARA& group) { all |= group.Value & bits; });
-  return store::is_atomic(node) ? all : all & CO_PARA___E;
+  const uint32_t possible = !is_restore(obj) && store::is_atomic(node) ? CO_PARA__AE : CO_PARA___E;
+  return visit(node, obj, nullptr).flags & possible;
 }
 
-template <uint32_t bits>
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (is_number_of_groups(*obj)) {
     return CO_TUNSIGNED8->Read(obj, node, buffer, size);
   }
-  const uint32_t value = abilities<bits>(*node, *obj);
+  const uint32_t value = abilities(*node, *obj);
   if (size != sizeof value || uintptr_t{obj->Data} == 0) {
     return CO_ERR_OBJ_SIZE;
   }
-  __builtin_memcpy(buffer, &value, sizeof value);
+  integer::put_u32(buffer, value);
   return CO_ERR_NONE;
 }
 
 // Writes a signature to 1010h or 1011h: executes "save" or "load" for each group. Returns the first error.
-template <uint32_t signature, CO_ERR (*command)(CO_NODE& node, const CO_PARA& group)>
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  uint32_t value = 0;
-  if (is_number_of_groups(*obj) || size != sizeof value) {
+  if (is_number_of_groups(*obj) || size != sizeof(uint32_t)) {
     return is_number_of_groups(*obj) ? CO_ERR_OBJ_ACC : CO_ERR_OBJ_SIZE;
   }
-  __builtin_memcpy(&value, buffer, sizeof value);
-  if (uintptr_t{obj->Data} == 0 || value != signature || abilities<CO_PARA___E>(*node, *obj) == 0) {
+  const uint32_t signature = is_restore(*obj) ? load_signature : save_signature;
+  if (uintptr_t{obj->Data} == 0 || integer::get_u32(buffer) != signature ||
+      (abilities(*node, *obj) & CO_PARA___E) == 0) {
     return CO_ERR_TYPE_WR;
   }
   const budget::Command counted(*node);
-  CO_ERR first = CO_ERR_NONE;
-  for_groups(*node, *obj, [&](const CO_PARA& group) {
-    const CO_ERR err = is_saved_on_command(group) ? command(*node, group) : CO_ERR_NONE;
-    first = first == CO_ERR_NONE ? err : first;
-  });
-  return first;
+  return visit(*node, *obj, is_restore(*obj) ? restore : save).first;
 }
 
 // Records that date or time in 1020h is not 0: the configuration is verified until an object of a group is written.
@@ -147,9 +160,9 @@ WEAK int16_t COParaDefault(CO_PARA*) { return 0; }
 WEAK void COParaLost(CO_NODE*, const CO_PARA*) {}
 
 const CO_OBJ_TYPE COTParaStore = {para::size, para::init_entry<rules::parameter_group_number, rules::parameter_group>,
-                                  para::read<CO_PARA__AE>, para::write<para::save_signature, para::save>, nullptr};
+                                  para::read, para::write, nullptr};
 const CO_OBJ_TYPE COTParaRestore = {para::size, para::init_entry<rules::parameter_group_number, rules::parameter_group>,
-                                    para::read<CO_PARA___E>, para::write<para::load_signature, para::restore>, nullptr};
+                                    para::read, para::write, nullptr};
 const CO_OBJ_TYPE COTVerifyConfig = {para::size_verify, para::init_verify, para::read_verify, para::write_verify,
                                      nullptr};
 
