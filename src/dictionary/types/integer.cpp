@@ -11,7 +11,7 @@ namespace co::integer {
 namespace {
 
 // Reads a number of 1, 2 or 4 bytes from a variable of the same size; with flag N the node-ID is added.
-inline CO_ERR read_number(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned bytes) {
+[[gnu::noinline]] CO_ERR read_number(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned bytes) {
   const void* const address = address_of_value(obj, bytes);
   if (address == nullptr) {
     return CO_ERR_BAD_ARG;
@@ -21,25 +21,37 @@ inline CO_ERR read_number(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsign
 }
 
 // Writes a number of 1, 2 or 4 bytes; with flag N the node-ID is subtracted.
-inline CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const void* buffer, unsigned bytes) {
+[[gnu::noinline]] CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const void* buffer, unsigned bytes) {
   const uint32_t value = load<uint32_t>(buffer, bytes) - node_id_of(obj, node);
   return set_value<uint32_t>(obj, node, value & (UINT32_MAX >> (32U - 8U * bytes)), bytes);
 }
 
-// Functions of a type with a value of 1, 2 or 4 bytes, in a variable of the same size.
-template <uint8_t bytes>
-struct Number {
-  static constexpr rules::Rule rule = rules::integer(bytes);
+}  // namespace
 
-  static uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return address_of_value(*obj, bytes) == nullptr ? 0 : bytes; }
-  static CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-    return size == bytes ? read_number(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
-  }
-  static CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-    return size == bytes ? write_number(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
-  }
-  static constexpr CO_OBJ_TYPE table = {size, dict::checked_by<rule>, read, write, nullptr};
-};
+template <uint8_t bytes>
+uint32_t Number<bytes>::size(CO_OBJ* obj, CO_NODE*, uint32_t) {
+  return address_of_value(*obj, bytes) == nullptr ? 0 : bytes;
+}
+template <uint8_t bytes>
+CO_ERR Number<bytes>::read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return size == bytes ? read_number(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+}
+template <uint8_t bytes>
+CO_ERR Number<bytes>::write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return size == bytes ? write_number(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+}
+template struct Number<1>;
+template struct Number<2>;
+template struct Number<4>;
+
+namespace {
+
+template <uint8_t bytes>
+inline constexpr rules::Rule rule = rules::integer(bytes);
+
+template <uint8_t bytes>
+constexpr CO_OBJ_TYPE table = {Number<bytes>::size, dict::checked_by<rule<bytes>>, Number<bytes>::read,
+                               Number<bytes>::write, nullptr};
 
 using Byte = Number<1>;
 using Real32 = Number<4>;
@@ -64,9 +76,9 @@ using namespace co::integer;
 
 extern "C" {
 
-const CO_OBJ_TYPE COTInt8 = Byte::table;
-const CO_OBJ_TYPE COTInt16 = Number<2>::table;
-const CO_OBJ_TYPE COTInt32 = Number<4>::table;
+const CO_OBJ_TYPE COTInt8 = table<1>;
+const CO_OBJ_TYPE COTInt16 = table<2>;
+const CO_OBJ_TYPE COTInt32 = table<4>;
 // The rules of these types refuse flag N, which has no meaning for them.
 const CO_OBJ_TYPE COTReal32 = {Real32::size, dict::checked_by<rules::variable>, Real32::read, Real32::write, nullptr};
 const CO_OBJ_TYPE COTBoolean = {Byte::size, dict::checked_by<rules::boolean>, Byte::read, write_boolean, nullptr};

@@ -30,12 +30,6 @@ void restart(CO_NODE& node, uint32_t ticks) {
 
 // 1017h, producer heartbeat time. [301:7.5.2.20] The basic type stores the value.
 
-uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED16->Size(obj, node, width); }
-
-CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return CO_TUNSIGNED16->Read(obj, node, buffer, size);
-}
-
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size != sizeof(uint16_t)) {
     return CO_ERR_BAD_ARG;
@@ -67,5 +61,5 @@ void on_mode(CO_NODE& node) {
 
 }  // namespace co::heartbeat
 
-extern "C" const CO_OBJ_TYPE COTNmtHbProd = {co::heartbeat::size, co::dict::checked_by<co::rules::heartbeat_producer>,
-                                             co::heartbeat::read, co::heartbeat::write, nullptr};
+extern "C" const CO_OBJ_TYPE COTNmtHbProd = {co::integer::Number<2>::size, co::dict::checked_by<co::rules::heartbeat_producer>,
+                                             co::integer::Number<2>::read, co::heartbeat::write, nullptr};

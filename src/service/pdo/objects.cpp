@@ -5,6 +5,7 @@
 #include "base/timer.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/multiplex.hpp"
 #include "wire/cob_id.hpp"
@@ -45,15 +46,9 @@ void configure(CO_NODE& node, const CO_OBJ& obj) {
   routes::publish(node);
 }
 
-template <const CO_OBJ_TYPE& number>
-uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
-  return number.Size(obj, node, width);
-}
-
-template <const CO_OBJ_TYPE& number>
-CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return number.Read(obj, node, buffer, size);
-}
+using Byte = integer::Number<1>;
+using Half = integer::Number<2>;
+using Word = integer::Number<4>;
 
 // Reads the value before a write. Returns false if it has another length or cannot be read.
 template <class T>
@@ -214,16 +209,16 @@ CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 extern "C" {
 
 const CO_OBJ_TYPE COTPdoId = {cob_id::size, dict::checked_by<rules::pdo_cob_id>, cob_id::read, write_cob_id, nullptr};
-const CO_OBJ_TYPE COTPdoType = {size<COTInt8>, dict::checked_by<rules::pdo_type>, read<COTInt8>, write_type, nullptr};
-const CO_OBJ_TYPE COTPdoInhibit = {size<COTInt16>, dict::checked_by<rules::pdo_inhibit>, read<COTInt16>,
+const CO_OBJ_TYPE COTPdoType = {Byte::size, dict::checked_by<rules::pdo_type>, Byte::read, write_type, nullptr};
+const CO_OBJ_TYPE COTPdoInhibit = {Half::size, dict::checked_by<rules::pdo_inhibit>, Half::read,
                                    write_fixed<uint16_t, COTInt16, UINT16_MAX>, nullptr};
-const CO_OBJ_TYPE COTPdoEvent = {size<COTInt16>, dict::checked_by<rules::pdo_event>, read<COTInt16>, write_event,
+const CO_OBJ_TYPE COTPdoEvent = {Half::size, dict::checked_by<rules::pdo_event>, Half::read, write_event,
                                  nullptr};
-const CO_OBJ_TYPE COTPdoStart = {size<COTInt8>, dict::checked_by<rules::pdo_start>, read<COTInt8>,
+const CO_OBJ_TYPE COTPdoStart = {Byte::size, dict::checked_by<rules::pdo_start>, Byte::read,
                                  write_fixed<uint8_t, COTInt8, pdo::last_synchronous_type>, nullptr};
-const CO_OBJ_TYPE COTPdoNum = {size<COTInt8>, dict::checked_by<rules::pdo_number>, read<COTInt8>, write_number,
+const CO_OBJ_TYPE COTPdoNum = {Byte::size, dict::checked_by<rules::pdo_number>, Byte::read, write_number,
                                nullptr};
-const CO_OBJ_TYPE COTPdoMap = {size<COTInt32>, dict::checked_by<rules::pdo_mapping>, read<COTInt32>, write_mapping,
+const CO_OBJ_TYPE COTPdoMap = {Word::size, dict::checked_by<rules::pdo_mapping>, Word::read, write_mapping,
                                nullptr};
 
 }  // extern "C"
