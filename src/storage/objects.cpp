@@ -80,7 +80,7 @@ uint32_t abilities(CO_NODE& node, const CO_OBJ& obj) {
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (is_number_of_groups(*obj)) {
-    return CO_TUNSIGNED8->Read(obj, node, buffer, size);
+    return integer::Number<1>::read(obj, node, buffer, size);
   }
   const uint32_t value = abilities(*node, *obj);
   if (size != sizeof value || uintptr_t{obj->Data} == 0) {
@@ -111,22 +111,22 @@ void note_verification(CO_NODE& node, uint32_t value) { node.Verified = value !=
 CO_ERR init_verify(CO_OBJ* obj, CO_NODE* node) {
   uint32_t value = 0;
   const CO_ERR err = dict::check_type(*obj, *node, rules::verify_configuration);
-  if (err == CO_ERR_NONE && CO_TUNSIGNED32->Read(obj, node, &value, sizeof value) == CO_ERR_NONE) {
+  if (err == CO_ERR_NONE && integer::Number<4>::read(obj, node, &value, sizeof value) == CO_ERR_NONE) {
     note_verification(*node, value);
   }
   return err;
 }
 
-uint32_t size_verify(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED32->Size(obj, node, width); }
+uint32_t size_verify(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return integer::Number<4>::size(obj, node, width); }
 
 CO_ERR read_verify(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return CO_TUNSIGNED32->Read(obj, node, buffer, size);
+  return integer::Number<4>::read(obj, node, buffer, size);
 }
 
 CO_ERR write_verify(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const CO_ERR err = CO_TUNSIGNED32->Write(obj, node, buffer, size);
+  const CO_ERR err = integer::Number<4>::write(obj, node, buffer, size);
   uint32_t value = 0;
-  if (err == CO_ERR_NONE && CO_TUNSIGNED32->Read(obj, node, &value, sizeof value) == CO_ERR_NONE) {
+  if (err == CO_ERR_NONE && integer::Number<4>::read(obj, node, &value, sizeof value) == CO_ERR_NONE) {
     note_verification(*node, value);
   }
   return err;

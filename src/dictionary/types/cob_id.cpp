@@ -23,11 +23,9 @@ bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
 // subtracts it when it writes, which could change the flags above the CAN-ID. The functions below undo that, and add or
 // subtract the node-ID in the CAN-ID alone.
 
-uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED32->Size(obj, node, width); }
-
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint32_t shown = 0;
-  const CO_ERR err = CO_TUNSIGNED32->Read(obj, node, &shown, size);
+  const CO_ERR err = integer::Number<4>::read(obj, node, &shown, size);
   if (err != CO_ERR_NONE) {
     return err;
   }
@@ -48,7 +46,7 @@ CO_ERR write(CO_OBJ& obj, CO_NODE& node, const void* buffer, uint32_t size, Perm
   }
   const uint32_t node_id = node_id_of(obj, node);
   uint32_t shown = shift_id(value, 0U - node_id) + node_id;
-  return CO_TUNSIGNED32->Write(&obj, &node, &shown, size);
+  return integer::Number<4>::write(&obj, &node, &shown, size);
 }
 
 bool is_free(uint32_t cob_id) {

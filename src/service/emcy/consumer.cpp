@@ -8,6 +8,7 @@
 #include "base/routes.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/emcy.hpp"
 
@@ -54,7 +55,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
 
 }  // namespace co::emcy
 
-extern "C" const CO_OBJ_TYPE COTEmcyCons = {co::cob_id::size, co::dict::checked_by<co::rules::emcy_consumer>,
+extern "C" const CO_OBJ_TYPE COTEmcyCons = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::emcy_consumer>,
                                             co::cob_id::read, co::emcy::write, nullptr};
 
 #endif

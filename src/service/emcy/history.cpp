@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "dictionary/dict.hpp"
+#include "dictionary/types/integer.hpp"
 
 namespace co::emcy {
 namespace {
@@ -42,7 +43,7 @@ void add(CO_NODE* node_pointer, uint32_t entry) {
   const uint32_t key = CO_DEV(index, history.Off);
   CO_OBJ* const place = dict::find(node, key);
   const CO_ERR err =
-      place == nullptr ? CO_ERR_OBJ_NOT_FOUND : CO_TUNSIGNED32->Write(place, &node, &entry, sizeof entry);
+      place == nullptr ? CO_ERR_OBJ_NOT_FOUND : integer::Number<4>::write(place, &node, &entry, sizeof entry);
   error::report(node, err, key);
 }
 
@@ -76,7 +77,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     COObjTypeUserSDOAbort(obj, node, CO_SDO_ERR_NO_DATA);
     return CO_ERR_TYPE_RD;
   }
-  return CO_TUNSIGNED32->Read(place, node, buffer, size);
+  return integer::Number<4>::read(place, node, buffer, size);
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {

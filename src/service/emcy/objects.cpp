@@ -6,6 +6,7 @@
 
 #include "dictionary/dict.hpp"
 #include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 
 namespace co::emcy {
@@ -33,7 +34,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 }  // namespace
 }  // namespace co::emcy
 
-extern "C" const CO_OBJ_TYPE COTEmcyId = {co::cob_id::size, co::dict::checked_by<co::rules::emcy_cob_id>,
+extern "C" const CO_OBJ_TYPE COTEmcyId = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::emcy_cob_id>,
                                           co::cob_id::read, co::emcy::write, nullptr};
 
 #endif

@@ -7,6 +7,7 @@
 #include "base/transmit.hpp"
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
+#include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 
@@ -33,9 +34,9 @@ CO_ERR send(CO_NODE& node) {
   return sent ? CO_ERR_NONE : CO_ERR_IF_CAN_SEND;
 }
 
-uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return COTInt8.Size(obj, node, width); }
+uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return integer::Number<1>::size(obj, node, width); }
 
-CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) { return COTInt8.Read(obj, node, buffer, size); }
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) { return integer::Number<1>::read(obj, node, buffer, size); }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (is_operational(*node)) {
@@ -44,7 +45,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size != 1 || *static_cast<const uint8_t*>(buffer) > 1) {
     return size != 1 ? CO_ERR_BAD_ARG : CO_ERR_OBJ_RANGE;
   }
-  const CO_ERR err = COTInt8.Write(obj, node, buffer, size);
+  const CO_ERR err = integer::Number<1>::write(obj, node, buffer, size);
   if (err == CO_ERR_NONE && node->Nmt.Mode != CO_INVALID) {
     init(*node);
     routes::publish(*node);

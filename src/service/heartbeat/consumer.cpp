@@ -9,6 +9,7 @@
 #include "base/timer.hpp"
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
+#include "dictionary/types/integer.hpp"
 #include "dictionary/types/place.hpp"
 #include "service/heartbeat/heartbeat.hpp"
 #include "wire/nmt.hpp"
@@ -161,7 +162,7 @@ bool is_entry(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) != 0; }
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
   if (!is_entry(*obj)) {
-    return CO_TUNSIGNED8->Size(obj, node, width);
+    return integer::Number<1>::size(obj, node, width);
   }
   return data_of<CO_HBCONS>(*obj) == nullptr ? 0 : sizeof(uint32_t);
 }
@@ -184,27 +185,26 @@ CO_ERR init(CO_OBJ* obj, CO_NODE* node) {
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (!is_entry(*obj)) {
-    return CO_TUNSIGNED8->Read(obj, node, buffer, size);
+    return integer::Number<1>::read(obj, node, buffer, size);
   }
   const CO_HBCONS* const cons = data_of<CO_HBCONS>(*obj);
   if (cons == nullptr || size != sizeof(uint32_t)) {
     return CO_ERR_BAD_ARG;
   }
   const uint32_t value = cons->Time | (uint32_t{cons->NodeId} << 16);
-  __builtin_memcpy(buffer, &value, sizeof value);
+  integer::put_u32(buffer, value);
   return CO_ERR_NONE;
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (!is_entry(*obj)) {
-    return CO_TUNSIGNED8->Write(obj, node, buffer, size);
+    return integer::Number<1>::write(obj, node, buffer, size);
   }
   const CO_HBCONS* const cons = data_of<CO_HBCONS>(*obj);
-  uint32_t value = 0;
-  if (cons == nullptr || size != sizeof value) {
+  if (cons == nullptr || size != sizeof(uint32_t)) {
     return CO_ERR_BAD_ARG;
   }
-  __builtin_memcpy(&value, buffer, sizeof value);
+  const uint32_t value = integer::get_u32(buffer);
   return change(*node, *cons, static_cast<uint16_t>(value), static_cast<uint8_t>(value >> 16));
 }
 

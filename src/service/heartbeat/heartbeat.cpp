@@ -39,7 +39,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (ms != 0 && ticks == 0) {
     return CO_ERR_OBJ_RANGE;
   }
-  const CO_ERR err = CO_TUNSIGNED16->Write(obj, node, buffer, size);
+  const CO_ERR err = integer::Number<2>::write(obj, node, buffer, size);
   if (err == CO_ERR_NONE && is_allowed(*node)) {
     restart(*node, ticks);
   }

@@ -4,6 +4,7 @@
 
 #include "base/events.hpp"
 #include "dictionary/dict.hpp"
+#include "dictionary/types/integer.hpp"
 #include "service/nmt/nmt.hpp"
 
 namespace co::nmt {
@@ -47,17 +48,17 @@ namespace {
 
 using namespace co;
 
-uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED8->Size(obj, node, width); }
+uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return integer::Number<1>::size(obj, node, width); }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return CO_TUNSIGNED8->Read(obj, node, buffer, size);
+  return integer::Number<1>::read(obj, node, buffer, size);
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size == sizeof(uint8_t) && *static_cast<const uint8_t*>(buffer) > CO_ERROR_BEHAVIOUR_STOP) {
     return CO_ERR_OBJ_RANGE;
   }
-  return CO_TUNSIGNED8->Write(obj, node, buffer, size);
+  return integer::Number<1>::write(obj, node, buffer, size);
 }
 
 }  // namespace

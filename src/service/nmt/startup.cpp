@@ -4,6 +4,7 @@
 
 #include "base/events.hpp"
 #include "dictionary/dict.hpp"
+#include "dictionary/types/integer.hpp"
 #include "service/nmt/nmt.hpp"
 
 namespace co::nmt {
@@ -33,10 +34,10 @@ namespace {
 
 using namespace co;
 
-uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED32->Size(obj, node, width); }
+uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return integer::Number<4>::size(obj, node, width); }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return CO_TUNSIGNED32->Read(obj, node, buffer, size);
+  return integer::Number<4>::read(obj, node, buffer, size);
 }
 
 // Refuses a change of any bit except CO_NMT_STARTUP_STAY: the others belong to an NMT master.
@@ -51,7 +52,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (((value ^ before) & ~uint32_t{CO_NMT_STARTUP_STAY}) != 0) {
     return CO_ERR_OBJ_RANGE;
   }
-  return CO_TUNSIGNED32->Write(obj, node, buffer, size);
+  return integer::Number<4>::write(obj, node, buffer, size);
 }
 
 }  // namespace

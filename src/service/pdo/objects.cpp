@@ -60,13 +60,6 @@ bool read_before(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& number, uint32_t
 // mapping is being resolved.
 bool is_mapping(const CO_NODE& node) { return (node.State & event::mapping) != 0; }
 
-template <class T>
-T value_in(const void* buffer) {
-  T value;
-  __builtin_memcpy(&value, buffer, sizeof value);
-  return value;
-}
-
 // Sub 1 --------------------------------------------------------------------------------------------------------------
 
 // Returns whether a COB-ID may be written. Bit 30 is ignored in RPDOs. Without USE_PDO_RTR a TPDO that exists must have
@@ -90,7 +83,7 @@ CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size != sizeof(uint32_t)) {
     return CO_ERR_BAD_ARG;
   }
-  const auto value = value_in<uint32_t>(buffer);
+  const auto value = integer::get_u32(buffer);
   const bool is_new = !exists(*node, *obj) && (value & wire::cob_invalid) == 0;
   if (is_new && !can_exist(*node, *obj)) {
     return CO_ERR_OBJ_RANGE;
@@ -121,11 +114,11 @@ CO_ERR write_type(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (!read_before(*obj, *node, COTInt8, size, before)) {
     return CO_ERR_BAD_ARG;
   }
-  const auto value = value_in<uint8_t>(buffer);
+  const auto value = *static_cast<const uint8_t*>(buffer);
   if (!pdo::is_type(direction_of(*obj), value) || !fits_mapping(*node, *obj, value)) {
     return CO_ERR_OBJ_RANGE;
   }
-  const CO_ERR err = COTInt8.Write(obj, node, buffer, size);
+  const CO_ERR err = integer::Number<1>::write(obj, node, buffer, size);
   if (err == CO_ERR_NONE && value != before) {
     configure(*node, *obj);
   }
@@ -141,7 +134,7 @@ CO_ERR write_fixed(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (!read_before(*obj, *node, number, size, before)) {
     return CO_ERR_BAD_ARG;
   }
-  const T value = value_in<T>(buffer);
+  const T value = size == 1 ? *static_cast<const uint8_t*>(buffer) : static_cast<T>(integer::get_u16(buffer));
   const bool changes = value != before && exists(*node, *obj);
   return changes || value > highest ? CO_ERR_OBJ_RANGE : number.Write(obj, node, buffer, size);
 }
@@ -152,12 +145,12 @@ CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size != sizeof(uint16_t)) {
     return CO_ERR_BAD_ARG;
   }
-  const auto value = value_in<uint16_t>(buffer);
+  const auto value = integer::get_u16(buffer);
   const uint32_t ticks = pdo::ticks(*node, value, CO_TMR_UNIT_1MS);
   if (value != 0 && ticks == 0) {
     return CO_ERR_OBJ_RANGE;
   }
-  const CO_ERR err = COTInt16.Write(obj, node, buffer, size);
+  const CO_ERR err = integer::Number<2>::write(obj, node, buffer, size);
   if (err != CO_ERR_NONE || !is_configured(*obj)) {
     return err;
   }
@@ -182,11 +175,11 @@ CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_OBJ_ACC;
   }
   CO_PDO_MAP map;
-  const auto value = value_in<uint8_t>(buffer);
+  const auto value = *static_cast<const uint8_t*>(buffer);
   const MappedBy author = value == before ? MappedBy::designer : MappedBy::network;
   const CO_ERR err = pdo::resolve(*node, CO_GET_IDX(obj->Key), value, map, author).err;
   uint8_t none = 0;
-  const CO_ERR stored = COTInt8.Write(obj, node, err == CO_ERR_NONE ? buffer : &none, size);
+  const CO_ERR stored = integer::Number<1>::write(obj, node, err == CO_ERR_NONE ? buffer : &none, size);
   return err != CO_ERR_NONE ? err : stored;
 }
 
@@ -199,16 +192,16 @@ CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (num != 0 || exists(*node, *obj)) {
     return CO_ERR_OBJ_ACC;
   }
-  const auto value = value_in<uint32_t>(buffer);
+  const auto value = integer::get_u32(buffer);
   const CO_ERR err = value == 0 ? CO_ERR_NONE : pdo::check(*node, direction_of(*obj), value, MappedBy::network);
-  return err == CO_ERR_NONE ? COTInt32.Write(obj, node, buffer, size) : err;
+  return err == CO_ERR_NONE ? integer::Number<4>::write(obj, node, buffer, size) : err;
 }
 
 }  // namespace
 
 extern "C" {
 
-const CO_OBJ_TYPE COTPdoId = {cob_id::size, dict::checked_by<rules::pdo_cob_id>, cob_id::read, write_cob_id, nullptr};
+const CO_OBJ_TYPE COTPdoId = {co::integer::Number<4>::size, dict::checked_by<rules::pdo_cob_id>, cob_id::read, write_cob_id, nullptr};
 const CO_OBJ_TYPE COTPdoType = {Byte::size, dict::checked_by<rules::pdo_type>, Byte::read, write_type, nullptr};
 const CO_OBJ_TYPE COTPdoInhibit = {Half::size, dict::checked_by<rules::pdo_inhibit>, Half::read,
                                    write_fixed<uint16_t, COTInt16, UINT16_MAX>, nullptr};

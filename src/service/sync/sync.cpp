@@ -8,6 +8,7 @@
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 
@@ -99,11 +100,6 @@ void configure(CO_NODE& node) {
 
 // Objects ------------------------------------------------------------------------------------------------------------
 
-uint32_t size_long(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED32->Size(obj, node, width); }
-CO_ERR read_long(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return CO_TUNSIGNED32->Read(obj, node, buffer, size);
-}
-
 // Returns whether a COB-ID may be written. A producer cannot change its CAN-ID, but may become a consumer.
 bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
   constexpr uint32_t own_bits = ~(producer | wire::cob_invalid);
@@ -123,11 +119,10 @@ CO_ERR write_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Writes 1006h (communication cycle period) or 1007h (synchronous window length), in µs.
 CO_ERR write_cycle(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  uint32_t value = 0;
-  if (size != sizeof value) {
+  if (size != sizeof(uint32_t)) {
     return CO_ERR_BAD_ARG;
   }
-  __builtin_memcpy(&value, buffer, sizeof value);
+  const uint32_t value = integer::get_u32(buffer);
   const bool is_cycle = CO_GET_IDX(obj->Key) == cycle_index;
   if (is_cycle && is_too_short(value)) {
     return CO_ERR_OBJ_RANGE_LOW;
@@ -136,7 +131,7 @@ CO_ERR write_cycle(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (value != 0 && time == 0) {
     return CO_ERR_OBJ_RANGE;
   }
-  const CO_ERR err = CO_TUNSIGNED32->Write(obj, node, buffer, size);
+  const CO_ERR err = integer::Number<4>::write(obj, node, buffer, size);
   if (err != CO_ERR_NONE) {
     return err;
   }
@@ -147,11 +142,6 @@ CO_ERR write_cycle(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     open_window(*node);
   }
   return CO_ERR_NONE;
-}
-
-uint32_t size_byte(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED8->Size(obj, node, width); }
-CO_ERR read_byte(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return CO_TUNSIGNED8->Read(obj, node, buffer, size);
 }
 
 // Writes 1019h. Its value can change only while the cycle period is 0. [301:7.5.2.22]
@@ -166,7 +156,7 @@ CO_ERR write_counter(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (value != node->Sync.Overflow && read(*node, cycle_index) != 0) {
     return CO_ERR_OBJ_STATE;
   }
-  const CO_ERR err = CO_TUNSIGNED8->Write(obj, node, buffer, size);
+  const CO_ERR err = integer::Number<1>::write(obj, node, buffer, size);
   if (err == CO_ERR_NONE && value != node->Sync.Overflow) {
     node->Sync.Overflow = value;
     node->Sync.Counter = 0;
@@ -215,12 +205,12 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTSyncId = {co::cob_id::size, co::dict::checked_by<co::rules::sync_cob_id>, co::cob_id::read,
+const CO_OBJ_TYPE COTSyncId = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::sync_cob_id>, co::cob_id::read,
                                co::sync::write_id, nullptr};
-const CO_OBJ_TYPE COTSyncCycle = {co::sync::size_long, co::dict::checked_by<co::rules::sync_cycle>, co::sync::read_long,
+const CO_OBJ_TYPE COTSyncCycle = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::sync_cycle>, co::integer::Number<4>::read,
                                   co::sync::write_cycle, nullptr};
-const CO_OBJ_TYPE COTSyncCount = {co::sync::size_byte, co::dict::checked_by<co::rules::sync_counter>,
-                                  co::sync::read_byte, co::sync::write_counter, nullptr};
+const CO_OBJ_TYPE COTSyncCount = {co::integer::Number<1>::size, co::dict::checked_by<co::rules::sync_counter>,
+                                  co::integer::Number<1>::read, co::sync::write_counter, nullptr};
 
 }  // extern "C"
 

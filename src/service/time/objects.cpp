@@ -3,6 +3,7 @@
 #include "base/routes.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "service/time/time.hpp"
 #include "wire/time.hpp"
 
@@ -61,7 +62,7 @@ CO_ERR write(CO_OBJ*, CO_NODE* node, void* buffer, uint32_t size) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTTimeId = {cob_id::size, dict::checked_by<rules::time_cob_id>, cob_id::read, write_id, nullptr};
+const CO_OBJ_TYPE COTTimeId = {co::integer::Number<4>::size, dict::checked_by<rules::time_cob_id>, cob_id::read, write_id, nullptr};
 const CO_OBJ_TYPE COTTimeClock = {size, nullptr, read, write, nullptr};
 
 }  // extern "C"
