@@ -66,19 +66,25 @@ void apply_configuration(CO_CSDO& client, const Configuration& found) {
 }
 
 // Configures a client if its parameter has changed; a transfer in progress is aborted. Returns whether routes have
-// changed. The callback of the aborted transfer may already have configured the client, or started another transfer.
+// changed. The callback of the aborted transfer may already have configured the client, or started another transfer:
+// the parameter is read again.
 bool configure_client(CO_CSDO& client) {
-  if (is_configured(client, read_configuration(*client.Node, number_of(client)))) {
-    return false;
-  }
-  if (client.State == CO_CSDO_STATE_BUSY) {
+  bool is_aborted = false;
+  for (;;) {
+    const Configuration found = read_configuration(*client.Node, number_of(client));
+    if (is_configured(client, found)) {
+      return is_aborted;
+    }
+    if (client.State != CO_CSDO_STATE_BUSY) {
+      apply_configuration(client, found);
+      return true;
+    }
+    if (is_aborted) {
+      return false;
+    }
     abort_transfer(client, CO_SDO_ERR_TOS_STATE);
+    is_aborted = true;
   }
-  if (client.State == CO_CSDO_STATE_BUSY) {
-    return false;
-  }
-  apply_configuration(client, read_configuration(*client.Node, number_of(client)));
-  return true;
 }
 
 }  // namespace
