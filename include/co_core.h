@@ -154,9 +154,6 @@ typedef struct CO_NODE_T {
   uint8_t OdLocked;       ///< CO_NODE_EXT.OdLock is held
   uint8_t IsTransmitOff;  ///< transmission is disabled while the bit rate is switched
   uint8_t WindowOver;     ///< the synchronous window has elapsed
-#if USE_PARA
-  uint8_t Verified;  ///< 1020h is not 0
-#endif
 #if USE_REAL_TIME
   uint8_t IsNodeLocked;  ///< the node lock is held (CO_NODE_EXT.Enter)
 #endif
@@ -169,6 +166,10 @@ typedef struct CO_NODE_T {
   const CO_NODE_EXT* Ext;  ///< settings of CONodeInitEx(), or defaults; not null
   /// Resolves all mappings again after CODictInit(), which sets it.
   void (*Remap)(struct CO_NODE_T* node);
+#if USE_PARA
+  /// Called after the network has written an object, while 1020h is not 0; otherwise null.
+  void (*OnWrite)(struct CO_NODE_T* node, const struct CO_OBJ_T* obj);
+#endif
   CO_TX_QUEUE TxQueue;     ///< transmit queue
   CO_IF If;                ///< drivers, handle for co_if.h
   CO_OBJ* RequestObj;      ///< object of the SDO request that is being processed; null: none

@@ -134,12 +134,10 @@ void change_node_id(CO_NODE& node, uint8_t id);
 void change_lss(CO_NODE& node);
 
 // Reports that the network has written an object: the configuration may differ from the verified one. [301:7.5.2.23]
-void change_configuration(CO_NODE& node, const CO_OBJ& obj);
-// Calls change_configuration() if the configuration was verified.
 inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_OBJ& obj) {
 #if USE_PARA
-  if (node.Verified != 0) {
-    change_configuration(node, obj);
+  if (node.OnWrite != nullptr) {
+    node.OnWrite(&node, &obj);
   }
 #endif
 }

@@ -388,10 +388,6 @@ void event::change_lss([[maybe_unused]] CO_NODE& node) {
 #endif
 }
 
-#if USE_PARA
-void event::change_configuration(CO_NODE& node, const CO_OBJ& obj) { para::on_write(node, obj); }
-#endif
-
 void event::change_object(CO_NODE& node, const CO_OBJ& obj) { pdo::change_object(node, obj); }
 
 event::Outlet event::find_outlet(CO_NODE& node, const CO_OBJ& obj) { return pdo::find_outlet(node, obj); }

@@ -106,7 +106,11 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Records that date or time in 1020h is not 0: the configuration is verified until an object of a group is written.
 // value: that of either sub-index; 0 changes nothing, because the other may still be set
-void note_verification(CO_NODE& node, uint32_t value) { node.Verified = value != 0 ? 1 : node.Verified; }
+void note_verification(CO_NODE& node, uint32_t value) {
+  if (value != 0) {
+    node.OnWrite = on_write;
+  }
+}
 
 CO_ERR init_verify(CO_OBJ* obj, CO_NODE* node) {
   uint32_t value = 0;

@@ -247,13 +247,13 @@ void init(CO_NODE& node) {
   }
 }
 
-void on_write(CO_NODE& node, const CO_OBJ& obj) {
-  if (CO_GET_IDX(obj.Key) == verify_index || !may_be_in_group(node, obj)) {
+void on_write(CO_NODE* node, const CO_OBJ* obj) {
+  if (CO_GET_IDX(obj->Key) == verify_index || !may_be_in_group(*node, *obj)) {
     return;
   }
-  node.Verified = 0;
-  dict::write_u32(node, CO_DEV(verify_index, 1), 0);
-  dict::write_u32(node, CO_DEV(verify_index, 2), 0);
+  node->OnWrite = nullptr;
+  dict::write_u32(*node, CO_DEV(verify_index, 1), 0);
+  dict::write_u32(*node, CO_DEV(verify_index, 2), 0);
 }
 
 void on_mode(CO_NODE& node) {

@@ -20,7 +20,7 @@ void init(CO_NODE& node);
 void on_mode(CO_NODE& node);
 
 // Marks the configuration as not verified (1020h) when the network has written an object of a group.
-void on_write(CO_NODE& node, const CO_OBJ& obj);
+void on_write(CO_NODE* node, const CO_OBJ* obj);
 
 [[nodiscard]] CO_ERR save(CO_NODE& node, const CO_PARA& group);
 [[nodiscard]] CO_ERR restore(CO_NODE& node, const CO_PARA& group);
