@@ -75,16 +75,9 @@ constexpr Event event_of(uint8_t command) {
   return is_in(command, Lss::inquire, wire::lss_address_parts) ? Event::inquire : Event::unknown;
 }
 
-// Reads a part of the LSS address: sub-indices 1…4 of 1018h.
-bool read_part(CO_NODE& node, uint8_t part, uint32_t& number) {
-  return dict::read_u32(node, CO_DEV(0x1018, part + 1U), number) == CO_ERR_NONE;
-}
-
-uint32_t part_of(CO_NODE& node, unsigned part) {
-  uint32_t number = 0;
-  (void)read_part(node, static_cast<uint8_t>(part), number);
-  return number;
-}
+// The LSS address: sub-indices 1…4 of 1018h.
+constexpr uint32_t key_of(unsigned part) { return CO_DEV(0x1018, part + 1U); }
+uint32_t part_of(CO_NODE& node, unsigned part) { return dict::read_number(node, key_of(part), sizeof(uint32_t), 0); }
 
 // Sends a frame. An unconfigured node is in Initialisation and sends nothing else. A callback may have stopped the
 // node.
@@ -358,9 +351,8 @@ constexpr Machine<State, rows> machine(ignore);
 
 // Returns whether 1018h has all four parts of the LSS address. Without them the node is no LSS slave.
 bool has_address(CO_NODE& node) {
-  uint32_t number = 0;
-  uint8_t part = 0;
-  while (part < wire::lss_address_parts && read_part(node, part, number)) {
+  unsigned part = 0;
+  while (part < wire::lss_address_parts && dict::find(node, key_of(part)) != nullptr) {
     ++part;
   }
   return part == wire::lss_address_parts;

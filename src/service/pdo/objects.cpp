@@ -27,9 +27,8 @@ uint16_t communication_of(const CO_OBJ& obj) {
 
 // Returns whether the PDO exists; false if its COB-ID is not in the dictionary.
 bool exists(CO_NODE& node, const CO_OBJ& obj) {
-  uint32_t cob_id = 0;
-  const CO_ERR err = dict::read_u32(node, CO_DEV(communication_of(obj), 1), cob_id);
-  return err == CO_ERR_NONE && (cob_id & wire::cob_invalid) == 0;
+  const uint32_t key = CO_DEV(communication_of(obj), 1);
+  return (pdo::read_number(node, key, sizeof(uint32_t), wire::cob_invalid) & wire::cob_invalid) == 0;
 }
 
 // Returns whether the configuration of the stack has a PDO with this number (CO_RPDO_N, CO_TPDO_N).
