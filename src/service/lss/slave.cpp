@@ -24,22 +24,6 @@ using wire::Lss;
 
 enum class State : uint8_t { waiting, configuration, count };
 
-enum class Event : uint8_t {
-  switch_global,
-  switch_selective,
-  configure_node_id,
-  configure_bit_timing,
-  activate_bit_timing,
-  store,
-  inquire,
-  inquire_node_id,
-  identify,
-  identify_unconfigured,
-  fastscan,
-  unknown,
-  count
-};
-
 using Service = void (*)(CO_NODE& node, const CO_IF_FRM& request);
 
 // Error codes of the services 11h, 13h and 17h.
@@ -49,31 +33,6 @@ constexpr uint32_t manufacturers_error = 255;
 constexpr uint32_t budget_used_up = manufacturers_error | 0x2200;  // 22h as in SDO abort 0800 0022h
 
 bool is_unconfigured(const CO_NODE& node) { return node.NodeId == wire::no_node_id; }
-
-constexpr bool is_in(uint8_t command, Lss first, uint8_t num) {
-  return static_cast<uint8_t>(command - static_cast<uint8_t>(first)) < num;
-}
-
-constexpr Event event_of(uint8_t command) {
-  switch (static_cast<Lss>(command)) {
-    case Lss::switch_global: return Event::switch_global;
-    case Lss::configure_node_id: return Event::configure_node_id;
-    case Lss::configure_bit_timing: return Event::configure_bit_timing;
-    case Lss::activate_bit_timing: return Event::activate_bit_timing;
-    case Lss::store: return Event::store;
-    case Lss::inquire_node_id: return Event::inquire_node_id;
-    case Lss::identify_unconfigured: return Event::identify_unconfigured;
-    case Lss::fastscan: return Event::fastscan;
-    default: break;
-  }
-  if (is_in(command, Lss::switch_selective, wire::lss_address_parts)) {
-    return Event::switch_selective;
-  }
-  if (is_in(command, Lss::identify, wire::lss_identify_parts)) {
-    return Event::identify;
-  }
-  return is_in(command, Lss::inquire, wire::lss_address_parts) ? Event::inquire : Event::unknown;
-}
 
 // The LSS address: sub-indices 1…4 of 1018h.
 constexpr uint32_t key_of(unsigned part) { return CO_DEV(0x1018, part + 1U); }
@@ -328,26 +287,42 @@ void fastscan(CO_NODE& node, const CO_IF_FRM& request) {
   answer(node, Lss::identified);
 }
 
-void ignore(CO_NODE&, const CO_IF_FRM&) {}
+constexpr uint8_t both = in(State::waiting, State::configuration);
+constexpr uint8_t waiting = in(State::waiting);
+constexpr uint8_t configuration = in(State::configuration);
 
-constexpr uint32_t both = in(State::waiting, State::configuration);
-constexpr uint32_t configuration = in(State::configuration);
-
-constexpr Transition<Event, Service> rows[] = {
-    {both, Event::switch_global, switch_global},
-    {in(State::waiting), Event::switch_selective, switch_selective},
-    {configuration, Event::configure_node_id, configure_node_id},
-    {configuration, Event::configure_bit_timing, configure_bit_timing},
-    {configuration, Event::activate_bit_timing, activate_bit_timing},
-    {configuration, Event::store, store},
-    {configuration, Event::inquire, inquire},
-    {configuration, Event::inquire_node_id, inquire_node_id},
-    {both, Event::identify, identify},
-    {both, Event::identify_unconfigured, identify_unconfigured},
-    {in(State::waiting), Event::fastscan, fastscan},
+// A service: its command specifiers, and the states in which it is valid. Others are ignored.
+struct Row {
+  Lss first;
+  uint8_t num;
+  uint8_t states;
+  Service run;
 };
 
-constexpr Machine<State, rows> machine(ignore);
+constexpr Row rows[] = {
+    {Lss::switch_global, 1, both, switch_global},
+    {Lss::switch_selective, wire::lss_address_parts, waiting, switch_selective},
+    {Lss::configure_node_id, 1, configuration, configure_node_id},
+    {Lss::configure_bit_timing, 1, configuration, configure_bit_timing},
+    {Lss::activate_bit_timing, 1, configuration, activate_bit_timing},
+    {Lss::store, 1, configuration, store},
+    {Lss::inquire, wire::lss_address_parts, configuration, inquire},
+    {Lss::inquire_node_id, 1, configuration, inquire_node_id},
+    {Lss::identify, wire::lss_identify_parts, both, identify},
+    {Lss::identify_unconfigured, 1, both, identify_unconfigured},
+    {Lss::fastscan, 1, waiting, fastscan},
+};
+
+void serve(CO_NODE& node, const CO_IF_FRM& request) {
+  const auto state = node.Lss.Mode == CO_LSS_CONF ? State::configuration : State::waiting;
+  for (const Row& row : rows) {
+    const unsigned part = request.Data[0] - static_cast<unsigned>(row.first);
+    if (part < row.num && (row.states & in(state)) != 0) {
+      row.run(node, request);
+      return;
+    }
+  }
+}
 
 // Returns whether 1018h has all four parts of the LSS address. Without them the node is no LSS slave.
 bool has_address(CO_NODE& node) {
@@ -418,8 +393,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
     return false;
   }
   if (node.IsTransmitOff == 0 && is_served(node)) {
-    const State state = node.Lss.Mode == CO_LSS_CONF ? State::configuration : State::waiting;
-    machine(state, event_of(frame.Data[0]))(node, frame);
+    serve(node, frame);
   }
   return true;
 }
