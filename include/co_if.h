@@ -24,6 +24,8 @@ typedef struct CO_IF_DRV_T {
   const CO_IF_NVM_DRV* Nvm;      ///< not used if CO_NODE_EXT.Nvm is not null
 } CO_IF_DRV;
 
+struct CO_STORE_T;
+
 /// The drivers of a node: &node.If. The application must not access the members. Inside the stack all drivers have a
 /// context argument; those of classic drivers are adapters.
 typedef struct CO_IF_T {
@@ -35,6 +37,7 @@ typedef struct CO_IF_T {
   void* TimerCtx;                           ///< argument of the functions of Timer
   const CO_IF_NVM_DRV_EX* Nvm;              ///< memory driver, or null
   void* NvmCtx;                             ///< argument of the functions of Nvm
+  const struct CO_STORE_T* Raw;             ///< stores groups in a memory without Shape; null: no group is stored there
   bool (*HasElapsed)(struct CO_IF_T* cif);  ///< asked by COTmrService(): classic timer drivers only, otherwise null
   uint32_t Expiry;      ///< classic timer driver: clock at the expiry for which it counts, or at the moment of its stop
   uint32_t Programmed;  ///< classic timer driver: ticks for which it counts; 0: stopped

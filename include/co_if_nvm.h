@@ -32,7 +32,8 @@ typedef struct CO_IF_NVM_DRV_EX_T {
   uint32_t (*Read)(void* ctx, uint32_t start, uint8_t* buffer, uint32_t size);         ///< returns the bytes read
   uint32_t (*Write)(void* ctx, uint32_t start, const uint8_t* buffer, uint32_t size);  ///< returns the bytes written
   bool (*Erase)(void* ctx, uint32_t start, uint32_t size);  ///< sets bytes to FFh; may be null if EraseSize is 0
-  CO_NVM_SHAPE (*Shape)(void* ctx);  ///< returns the geometry; may be null: then stores are not atomic
+  /// Returns the geometry. May be null: then stores are not atomic, and nodes of CONodeInitCtx() store nothing.
+  CO_NVM_SHAPE (*Shape)(void* ctx);
 } CO_IF_NVM_DRV_EX;
 
 #ifdef __cplusplus

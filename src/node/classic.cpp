@@ -2,15 +2,30 @@
 // Initialisation of nodes that may have classic drivers. Only programs that call these functions link the adapters.
 #include "hal/classic.hpp"
 #include "node/node.hpp"
+#include "storage/store.hpp"
 
 using namespace co;
+
+namespace {
+
+// Adds the adapters for classic drivers, and the format of groups in a memory without Shape.
+void add(CO_IF& cif, CO_IF_DRV* drivers) {
+  if (drivers != nullptr) {
+    classic::add_drivers(cif, *drivers);
+  }
+#if USE_PARA
+  cif.Raw = &store::bytes;
+#endif
+}
+
+}  // namespace
 
 extern "C" {
 
 void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) { CONodeInitEx(node, spec, nullptr); }
 
 void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) {
-  node::init(node, spec, ext, classic::add_drivers);
+  node::init(node, spec, ext, add);
 }
 
 // The symbols of both functions contain this library's configuration (lexican/detail/configuration.h); programs that

@@ -418,8 +418,8 @@ void node::init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext,
   ASSERT_PTR_FATAL(node);
   ASSERT_PTR_FATAL(spec);
   take_over(*node, *spec, ext == nullptr ? port::no_extension : *ext);
-  if (add_drivers != nullptr && spec->Drv != nullptr) {
-    add_drivers(node->If, *spec->Drv);
+  if (add_drivers != nullptr) {
+    add_drivers(node->If, spec->Drv);
   }
   node->Error = begin(*node, *spec);
   if (node->Error != CO_ERR_NONE) {

@@ -374,14 +374,19 @@ bool fits(const CO_NODE& node, const Record& record) {
 }
 
 Found find(const CO_NODE& node, const Record& record) {
-  CO_ASSERT(fits(node, record));
+  if (!fits(node, record)) {
+    return Found::no_place;
+  }
   const Slots slots(node, record);
   const bool blank = slots.newest.found == Found::blank && slots.other.found == Found::blank;
   return blank || is_whole(slots.newest) ? slots.newest.found : Found::lost;
 }
 
 Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
-  CO_ASSERT(fits(node, record) && size <= record.size);
+  CO_ASSERT(size <= record.size);
+  if (!fits(node, record)) {
+    return {Found::no_place, false};
+  }
   Slots slots(node, record);
   remember(node, record, slots.newest);
   if (load_slot(node, record, slots.newest, to, size)) {
@@ -399,7 +404,9 @@ Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
 }
 
 CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
-  CO_ASSERT(fits(node, record));
+  if (!fits(node, record)) {
+    return CO_ERR_PARA_STORE;
+  }
   const Slots slots(node, record);
   if (is_stored(node, record, slots.newest, data)) {
     return CO_ERR_NONE;
@@ -409,6 +416,8 @@ CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
   }
   return budget::take_store(node) ? write_record(node, record, slots, data) : CO_ERR_OBJ_STATE;
 }
+
+const CO_STORE_T store = {space, find, load, save};
 
 }  // namespace co::slots
 

@@ -26,4 +26,6 @@ namespace co::slots {
 // Returns whether num bytes are equal.
 [[nodiscard]] bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num);
 
+extern const CO_STORE_T store;
+
 }  // namespace co::slots

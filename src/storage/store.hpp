@@ -51,3 +51,18 @@ struct Loaded {
 [[nodiscard]] CO_ERR save_defaults(CO_NODE& node, const Record& record);
 
 }  // namespace co::store
+
+// Functions for the records of a kind of memory: atomic slots, or bytes without header. They are those above; save()
+// with null data stores the request to use the default values.
+struct CO_STORE_T {
+  uint32_t (*space)(const CO_NODE& node, uint32_t size);
+  co::store::Found (*find)(const CO_NODE& node, const co::store::Record& record);
+  co::store::Loaded (*load)(CO_NODE& node, const co::store::Record& record, uint8_t* to, uint32_t size);
+  CO_ERR (*save)(CO_NODE& node, const co::store::Record& record, const uint8_t* data);
+};
+
+namespace co::store {
+
+extern const CO_STORE_T bytes;  // linked with the adapters for classic drivers
+
+}  // namespace co::store
