@@ -157,12 +157,7 @@ typedef struct CO_NODE_T {
 #if USE_REAL_TIME
   uint8_t IsNodeLocked;  ///< the node lock is held (CO_NODE_EXT.Enter)
 #endif
-  uint16_t TPdoMarkedEnd;  ///< number behind the last TPDO that is marked for transmission; 0: none is
   CO_NMT Nmt;              ///< NMT slave, handle for co_nmt.h
-  uint16_t RPdoFirst;      ///< head of the list of RPDOs that wait for the SYNC, linked by CO_RPDO.Next
-  uint16_t RPdoLast;       ///< tail of that list, if it is not empty
-  uint16_t TPdoFirst;      ///< head of the list of synchronous TPDOs, linked by CO_TPDO.Next
-  uint16_t TPdoMarked;     ///< number of the first TPDO that is marked for transmission
   const CO_NODE_EXT* Ext;  ///< settings of CONodeInitEx(), or defaults; not null
   /// Resolves all mappings again after CODictInit(), which sets it.
   void (*Remap)(struct CO_NODE_T* node);
@@ -191,10 +186,13 @@ typedef struct CO_NODE_T {
   CO_EMCY Emcy;  ///< emergencies, handle for co_emcy.h
 #endif
 #if CO_RPDO_N > 0
-  CO_RPDO RPdo[CO_RPDO_N];  ///< RPDOs, 1400h + index
+  CO_RPDO RPdo[CO_RPDO_N];                    ///< RPDOs, 1400h + index
+  uint32_t RPdoFresh[(CO_RPDO_N + 31) / 32];  ///< a bit for each RPDO that has data for the next SYNC
 #endif
 #if CO_TPDO_N > 0
-  CO_TPDO TPdo[CO_TPDO_N];  ///< TPDOs, 1800h + index; handle for COTPdoTrigPdo() and COTPdoTrigObj()
+  CO_TPDO TPdo[CO_TPDO_N];                     ///< TPDOs, 1800h + index; handle for COTPdoTrigPdo() and COTPdoTrigObj()
+  uint32_t TPdoMarked[(CO_TPDO_N + 31) / 32];  ///< a bit for each TPDO that is marked for transmission
+  uint32_t TPdoSync[(CO_TPDO_N + 31) / 32];    ///< a bit for each synchronous TPDO
 #endif
 #if USE_SYNC
   CO_SYNC Sync;  ///< SYNC consumer and producer

@@ -110,7 +110,7 @@ typedef struct CO_TPDO_TIMES_T {
 /// A PDO. The application must not access its members; it refers to a PDO by its number in node.RPdo or node.TPdo.
 typedef struct CO_PDO_T {
   struct CO_NODE_T* Node;  ///< owner
-  uint16_t Next;           ///< link: RPDOs that wait for the SYNC; synchronous TPDOs
+  uint16_t Number;         ///< position in node.RPdo or node.TPdo
   uint8_t Type;            ///< transmission type
   uint8_t Count;           ///< TPDO: SYNCs since the last transmission, or the SYNC start value until it is reached
   CO_PDO_MAP Map;          ///< mapping and flags

@@ -59,6 +59,7 @@ uint32_t read_time(CO_NODE& node, uint32_t key, uint32_t unit) {
 void init_one(CO_NODE& node, unsigned index) {
   CO_PDO& pdo = pdo_at(node, index);
   pdo.Node = &node;
+  pdo.Number = static_cast<uint16_t>(number_of(index));
   pdo.Map.Flags = 0;
   configure(node, index);
 }
@@ -115,12 +116,11 @@ bool may_exist(CO_NODE& node, CO_PDO& pdo, unsigned index, uint32_t cob_id) {
     identifier = wire::frame_id(cob_id);
   }
   if (receives) {
-    begin_rpdo(pdo, number_of(index), identifier, event);
+    begin_rpdo(pdo, identifier, event);
     return;
   }
   pdo.Own.Time = {read_time(node, CO_DEV(index, 3), CO_TMR_UNIT_100US), event};
-  begin_tpdo(pdo, number_of(index), identifier,
-             (cob_id & CO_TPDO_COBID_REMOTE) == 0 ? Remote::answered : Remote::ignored);
+  begin_tpdo(pdo, identifier, (cob_id & CO_TPDO_COBID_REMOTE) == 0 ? Remote::answered : Remote::ignored);
 }
 
 }  // namespace
@@ -131,11 +131,7 @@ void configure(CO_NODE& node, unsigned index) {
   begin(node, pdo, index);
 }
 
-void init(CO_NODE& node) {
-  node.RPdoFirst = 0;
-  node.TPdoFirst = 0;
-  for_each(node, init_one);
-}
+void init(CO_NODE& node) { for_each(node, init_one); }
 
 void remap(CO_NODE& node) { for_each(node, remap_one); }
 

@@ -55,8 +55,8 @@ enum class Remote : uint8_t { ignored, answered };
 // exist; event: ticks
 void end_rpdo(CO_NODE& node, CO_PDO& pdo);
 void end_tpdo(CO_NODE& node, CO_PDO& pdo);
-void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, uint32_t event);
-void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, Remote requests);
+void begin_rpdo(CO_PDO& pdo, uint32_t identifier, uint32_t event);
+void begin_tpdo(CO_PDO& pdo, uint32_t identifier, Remote requests);
 
 // Apply a change of sub-index 5 while the PDO exists: the deadline of an RPDO, the event timer of a TPDO.
 void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks);

@@ -8,7 +8,7 @@
 namespace co::pdo {
 
 void end_tpdo(CO_NODE&, CO_PDO&) {}
-void begin_tpdo(CO_PDO&, unsigned, uint32_t, Remote) {}
+void begin_tpdo(CO_PDO&, uint32_t, Remote) {}
 void change_event_time(CO_NODE&, unsigned, uint32_t) {}
 void sample(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
 void end_window(CO_NODE& node) { node.WindowOver = 1; }

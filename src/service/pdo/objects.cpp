@@ -200,17 +200,15 @@ CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTPdoId = {co::integer::Number<4>::size, dict::checked_by<rules::pdo_cob_id>, cob_id::read, write_cob_id, nullptr};
+const CO_OBJ_TYPE COTPdoId = {co::integer::Number<4>::size, dict::checked_by<rules::pdo_cob_id>, cob_id::read,
+                              write_cob_id, nullptr};
 const CO_OBJ_TYPE COTPdoType = {Byte::size, dict::checked_by<rules::pdo_type>, Byte::read, write_type, nullptr};
 const CO_OBJ_TYPE COTPdoInhibit = {Half::size, dict::checked_by<rules::pdo_inhibit>, Half::read,
                                    write_fixed<uint16_t, COTInt16, UINT16_MAX>, nullptr};
-const CO_OBJ_TYPE COTPdoEvent = {Half::size, dict::checked_by<rules::pdo_event>, Half::read, write_event,
-                                 nullptr};
+const CO_OBJ_TYPE COTPdoEvent = {Half::size, dict::checked_by<rules::pdo_event>, Half::read, write_event, nullptr};
 const CO_OBJ_TYPE COTPdoStart = {Byte::size, dict::checked_by<rules::pdo_start>, Byte::read,
                                  write_fixed<uint8_t, COTInt8, pdo::last_synchronous_type>, nullptr};
-const CO_OBJ_TYPE COTPdoNum = {Byte::size, dict::checked_by<rules::pdo_number>, Byte::read, write_number,
-                               nullptr};
-const CO_OBJ_TYPE COTPdoMap = {Word::size, dict::checked_by<rules::pdo_mapping>, Word::read, write_mapping,
-                               nullptr};
+const CO_OBJ_TYPE COTPdoNum = {Byte::size, dict::checked_by<rules::pdo_number>, Byte::read, write_number, nullptr};
+const CO_OBJ_TYPE COTPdoMap = {Word::size, dict::checked_by<rules::pdo_mapping>, Word::read, write_mapping, nullptr};
 
 }  // extern "C"

@@ -2,6 +2,7 @@
 // RPDOs. [301:7.2.2.5.1]
 #include <stddef.h>
 
+#include "base/bits.hpp"
 #include "base/callbacks.hpp"
 #include "base/events.hpp"
 #include "base/routes.hpp"
@@ -25,14 +26,6 @@ using event::Fault;
 constexpr unsigned reported = too_short | too_long | late;
 
 static_assert(offsetof(CO_RPDO, Own.Data) % sizeof(Word) == 0);
-
-// Links of the list are PDO numbers from 1.
-constexpr uint16_t none = 0;
-CO_RPDO& at(CO_NODE& node, uint16_t link) {
-  CO_ASSERT(link != none);
-  return node.RPdo[link - 1];
-}
-uint16_t link_of(const CO_RPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->RPdo + 1); }
 
 // Returns whether an RPDO is synchronous. Types 252 and 253 (remote requests) are not possible.
 bool is_synchronous(const CO_RPDO& pdo) { return USE_SYNC != 0 && pdo.Type <= last_synchronous_type; }
@@ -58,17 +51,8 @@ bool check_length(CO_RPDO& pdo, unsigned length) {
 
 // Stores the data until the SYNC; the last frame before the SYNC is used.
 void store_until_sync(CO_RPDO& pdo, const CO_IF_FRM& frame) {
-  CO_NODE& node = *pdo.Node;
   copy_data(pdo.Own.Data, frame.Data);
-  const bool is_queued = has(pdo.Map, queued);
-  set(pdo.Map, fresh | queued);
-  if (is_queued) {
-    return;
-  }
-  const uint16_t link = link_of(pdo);
-  pdo.Next = none;
-  (node.RPdoFirst == none ? node.RPdoFirst : at(node, node.RPdoLast).Next) = link;
-  node.RPdoLast = link;
+  bits::add(pdo.Node->RPdoFresh, pdo.Number);
 }
 
 void write_and_mark(CO_NODE& node, CO_PDO_MAP& map, CO_IF_FRM& frame) {
@@ -77,38 +61,17 @@ void write_and_mark(CO_NODE& node, CO_PDO_MAP& map, CO_IF_FRM& frame) {
   }
 }
 
-// Writes the stored data of an RPDO at the SYNC, unless the PDO was configured again meanwhile.
+// Writes the stored data of an RPDO at the SYNC.
 void write_stored(CO_NODE& node, CO_RPDO& pdo) {
-  if (!has(pdo.Map, fresh)) {
-    return;
-  }
   CO_IF_FRM frame = wire::empty_frame(0, sizeof pdo.Own.Data);
   copy_data(frame.Data, pdo.Own.Data);
   set(pdo.Map, served);
   write_and_mark(node, pdo.Map, frame);
 }
 
-void forget_stored(CO_NODE& node) {
-  for (uint16_t link = node.RPdoFirst; link != none; link = at(node, link).Next) {
-    clear(at(node, link).Map, queued);
-  }
-  node.RPdoFirst = none;
-}
+void forget_stored(CO_NODE& node) { __builtin_memset(node.RPdoFresh, 0, sizeof node.RPdoFresh); }
 
-// Calls the callbacks of the RPDOs that were written at the SYNC. The list cannot change meanwhile, because frames and
-// resets are deferred.
-void call_sync_callbacks(CO_NODE& node, uint16_t first) {
-  for (uint16_t link = first; link != none;) {
-    CO_RPDO& pdo = at(node, link);
-    const bool is_fresh = has(pdo.Map, fresh);
-    clear(pdo.Map, queued | fresh);
-    if (is_fresh) {
-      callback::update_pdo_at_sync(node, pdo);
-      callback::update_pdo(node, pdo);
-    }
-    link = pdo.Next;
-  }
-}
+unsigned next_fresh(const CO_NODE& node, unsigned from) { return bits::next(node.RPdoFresh, from, CO_RPDO_N); }
 
 // Processes a frame. Callbacks may end Operational or change the PDO. Returns false if the frame is too short.
 [[gnu::noinline]] bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
@@ -138,7 +101,7 @@ void call_sync_callbacks(CO_NODE& node, uint16_t first) {
 }  // namespace
 
 uint8_t detail_of(const CO_RPDO& pdo) {
-  const uint16_t number = link_of(pdo);
+  const unsigned number = pdo.Number + 1U;
   return static_cast<uint8_t>(CO_RPDO_N < UINT8_MAX || number < UINT8_MAX ? number : UINT8_MAX);
 }
 
@@ -169,13 +132,16 @@ void end_rpdo(CO_NODE& node, CO_PDO& pdo) {
   mpdo::end_rpdo(pdo);
 }
 
-// Keeps the flag queued, because the PDO stays in the list until the SYNC. The deadline starts with the first frame.
-void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, uint32_t event) {
+// The deadline starts with the first frame.
+void begin_rpdo(CO_PDO& pdo, uint32_t identifier, uint32_t event) {
   pdo.Deadline = event;
-  pdo.Map.Flags &= queued;
+  pdo.Map.Flags = 0;
+  if (USE_SYNC != 0) {
+    bits::remove(pdo.Node->RPdoFresh, pdo.Number);
+  }
   const uint32_t received = mpdo::is_mpdo(pdo.Map) ? wire::no_frame : identifier;
-  routes::change(*pdo.Node, received, routes::Service::rpdo, static_cast<uint16_t>(number));
-  mpdo::begin_rpdo(pdo, number, identifier);
+  routes::change(*pdo.Node, received, routes::Service::rpdo, pdo.Number);
+  mpdo::begin_rpdo(pdo, pdo.Number, identifier);
 }
 
 void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks) {
@@ -208,26 +174,28 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   return process_frame(node, node.RPdo[number], frame);
 }
 
-// Writes all synchronous RPDOs of one SYNC with OdLock held.
+// Writes all synchronous RPDOs of one SYNC with OdLock held, then calls their callbacks. An RPDO that was configured
+// meanwhile is no longer in the set; none is added, because frames are deferred.
 void apply(CO_NODE& node) {
-  const uint16_t first = node.RPdoFirst;
-  if (first == none) {
+  if (bits::is_empty(node.RPdoFresh)) {
     return;
   }
   if (is_switching(node)) {
     forget_stored(node);
     return;
   }
-  node.RPdoFirst = none;
   {
     const Lock lock(node);
-    for (uint16_t link = first; link != none;) {
-      CO_RPDO& pdo = at(node, link);
-      write_stored(node, pdo);
-      link = pdo.Next;
+    for (unsigned n = next_fresh(node, 0); n != CO_RPDO_N; n = next_fresh(node, n + 1)) {
+      write_stored(node, node.RPdo[n]);
     }
   }
-  call_sync_callbacks(node, first);
+  for (unsigned n = next_fresh(node, 0); n != CO_RPDO_N; n = next_fresh(node, n + 1)) {
+    CO_RPDO& pdo = node.RPdo[n];
+    bits::remove(node.RPdoFresh, n);
+    callback::update_pdo_at_sync(node, pdo);
+    callback::update_pdo(node, pdo);
+  }
 }
 
 bool was_received(CO_NODE& node, uint16_t number) {

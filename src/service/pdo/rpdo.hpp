@@ -9,8 +9,6 @@ namespace co::pdo {
 
 // Bits of CO_PDO_MAP.Flags of an RPDO, in addition to those of plan.hpp.
 enum RpdoFlag : uint8_t {
-  queued = 0x01,     // the PDO is in the list of RPDOs that wait for the SYNC
-  fresh = 0x02,      // queued, and Data was not written to the objects yet
   too_short = 0x04,  // pdo_short is raised
   too_long = 0x08,   // pdo_long is raised
   late = 0x10,       // pdo_timeout is raised

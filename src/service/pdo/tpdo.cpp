@@ -2,6 +2,7 @@
 // TPDOs. [301:7.2.2.5.2-3]
 #include <stddef.h>
 
+#include "base/bits.hpp"
 #include "base/callbacks.hpp"
 #include "base/error.hpp"
 #include "base/events.hpp"
@@ -22,15 +23,6 @@ namespace co::pdo {
 namespace {
 
 static_assert(offsetof(CO_TPDO, Own) % sizeof(Word) == 0);
-
-// Links of the list are PDO numbers from 1.
-constexpr uint16_t none = 0;
-CO_TPDO& at(CO_NODE& node, uint16_t link) {
-  CO_ASSERT(link != none);
-  return node.TPdo[link - 1];
-}
-
-uint16_t number_of(const CO_TPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->TPdo); }
 
 // Returns whether remote requests are answered with the sample of the last SYNC.
 bool keeps_sample(const CO_TPDO& pdo) { return USE_PDO_RTR != 0 && has(pdo.Map, remote) && is_synchronous(pdo.Type); }
@@ -122,18 +114,11 @@ void on_time(void* pdo_pointer) {
   }
 }
 
-// Marks a PDO for send_marked(). The numbers of the marked PDOs are in the range TPdoMarked…TPdoMarkedEnd - 1, so that
-// one marked PDO is found without a search. TPdoMarkedEnd 0: none is marked.
+// Marks a PDO for send_marked(). A PDO that is sent for another reason loses its flag, but stays in the set.
 void mark(CO_TPDO& pdo) {
   CO_NODE& node = *pdo.Node;
-  const uint16_t number = number_of(pdo);
   set(pdo.Map, marked);
-  if (node.TPdoMarkedEnd == 0 || number < node.TPdoMarked) {
-    node.TPdoMarked = number;
-  }
-  if (number >= node.TPdoMarkedEnd) {
-    node.TPdoMarkedEnd = static_cast<uint16_t>(number + 1);
-  }
+  bits::add(node.TPdoMarked, pdo.Number);
   event::defer(node, event::send_tpdos);
 }
 
@@ -231,42 +216,21 @@ bool maps_or_marks(CO_TPDO& pdo, uint16_t entry) {
   return mpdo::is_sam(pdo.Map) ? mpdo::mark(*pdo.Node, entry) : maps(pdo.Map, entry);
 }
 
-// Triggers the marked PDOs. Those that are marked meanwhile are left to the next round. Returns the last error.
+// Triggers the marked PDOs, in the order of their numbers. Those with lower numbers that are marked meanwhile are left
+// to the next round. Returns the last error.
 CO_ERR trigger_marked(CO_NODE& node) {
-  CO_TPDO* pdo = &node.TPdo[node.TPdoMarked];
-  const CO_TPDO* const end = &node.TPdo[node.TPdoMarkedEnd];
   CO_ERR last = CO_ERR_NONE;
-  node.TPdoMarkedEnd = 0;
-  do {
-    if (has(pdo->Map, marked)) {
-      clear(pdo->Map, marked);
-      const CO_ERR err = trigger(*pdo);
+  event::remove(node, event::send_tpdos);
+  for (unsigned n = 0; (n = bits::next(node.TPdoMarked, n, CO_TPDO_N)) != CO_TPDO_N; ++n) {
+    CO_TPDO& pdo = node.TPdo[n];
+    bits::remove(node.TPdoMarked, n);
+    if (has(pdo.Map, marked)) {
+      clear(pdo.Map, marked);
+      const CO_ERR err = trigger(pdo);
       last = err != CO_ERR_NONE ? err : last;
     }
-  } while (++pdo != end);
+  }
   return last;
-}
-
-// Finds the link to a PDO in the list of synchronous TPDOs, which is ordered by number.
-uint16_t& find_link(CO_NODE& node, uint16_t to) {
-  uint16_t* link = &node.TPdoFirst;
-  while (*link != none && *link < to) {
-    link = &at(node, *link).Next;
-  }
-  return *link;
-}
-
-// Adds a PDO to the list of synchronous TPDOs, or removes it.
-void update_sync_list(CO_NODE& node, CO_TPDO& pdo, unsigned number) {
-  const auto own = static_cast<uint16_t>(number + 1);
-  const bool listed = exists(pdo.Map) && is_synchronous(pdo.Type);
-  uint16_t& link = find_link(node, own);
-  if (listed && link != own) {
-    pdo.Next = link;
-    link = own;
-  } else if (!listed && link == own) {
-    link = pdo.Next;
-  }
 }
 
 // Starts a PDO: when Operational is entered, or when the PDO is configured in Operational.
@@ -285,14 +249,16 @@ void begin(CO_TPDO& pdo) {
       start(pdo, pdo.Own.Time.Event);
     }
   } else if (USE_SYNC != 0) {
-    pdo.Count = start_value(*pdo.Node, number_of(pdo));
+    pdo.Count = start_value(*pdo.Node, pdo.Number);
     set(pdo.Map, (pdo.Count != 0 ? starts | waiting : 0) | (pdo.Type == type_acyclic ? pending : 0));
   }
 }
 
+unsigned next_synchronous(const CO_NODE& node, unsigned from) { return bits::next(node.TPdoSync, from, CO_TPDO_N); }
+
 void withdraw_synchronous(CO_NODE& node) {
-  for (uint16_t link = node.TPdoFirst; link != none && transmit::is_waiting(node); link = at(node, link).Next) {
-    transmit::withdraw(node, at(node, link).Identifier);
+  for (unsigned n = 0; (n = next_synchronous(node, n)) != CO_TPDO_N && transmit::is_waiting(node); ++n) {
+    transmit::withdraw(node, node.TPdo[n].Identifier);
   }
 }
 
@@ -319,17 +285,18 @@ void end_tpdo(CO_NODE& node, CO_PDO& pdo) {
   transmit::withdraw(node, pdo.Identifier);
 }
 
-void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, Remote requests) {
+void begin_tpdo(CO_PDO& pdo, uint32_t identifier, Remote requests) {
   CO_NODE& node = *pdo.Node;
   const bool asked = USE_PDO_RTR != 0 && requests == Remote::answered && exists(pdo.Map) && !mpdo::is_mpdo(pdo.Map);
   pdo.Identifier = identifier;
   pdo.Map.Flags = asked ? remote : 0;
-  mpdo::begin_tpdo(pdo, number);
+  mpdo::begin_tpdo(pdo, pdo.Number);
   if (USE_SYNC != 0) {
-    update_sync_list(node, pdo, number);
+    exists(pdo.Map) && is_synchronous(pdo.Type) ? bits::add(node.TPdoSync, pdo.Number)
+                                                : bits::remove(node.TPdoSync, pdo.Number);
   }
   if (USE_PDO_RTR != 0) {
-    routes::change(node, asked ? identifier : wire::no_frame, routes::Service::tpdo, static_cast<uint16_t>(number));
+    routes::change(node, asked ? identifier : wire::no_frame, routes::Service::tpdo, pdo.Number);
   }
   if (is_operational(node)) {
     begin(pdo);
@@ -380,8 +347,11 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
 
 void sample(CO_NODE& node, uint8_t counter) {
   node.WindowOver = 0;
-  for (uint16_t link = node.TPdoFirst; link != none && is_operational(node); link = at(node, link).Next) {
-    process_sync(at(node, link), counter);
+  if (bits::is_empty(node.TPdoSync)) {
+    return;
+  }
+  for (unsigned n = 0; (n = next_synchronous(node, n)) != CO_TPDO_N && is_operational(node); ++n) {
+    process_sync(node.TPdo[n], counter);
   }
 }
 
@@ -411,12 +381,10 @@ CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
 // Changes by Read functions and callbacks of the PDOs are sent in a second round; changes in that round wait for the
 // next event. A callback that changes the NMT state calls this function again: before each round nothing is deferred.
 CO_ERR send_marked(CO_NODE& node) {
-  CO_ASSERT(node.OdLocked == 0 && node.TPdoMarked < node.TPdoMarkedEnd && node.TPdoMarkedEnd <= CO_TPDO_N);
+  CO_ASSERT(node.OdLocked == 0);
   const event::Serving serving(node);
-  event::remove(node, event::send_tpdos);
   const CO_ERR err = trigger_marked(node);
-  if (node.TPdoMarkedEnd != 0) {
-    event::remove(node, event::send_tpdos);
+  if (!bits::is_empty(node.TPdoMarked)) {
     (void)trigger_marked(node);
     event::remove(node, event::send_tpdos);
   }
