@@ -33,7 +33,7 @@ void print_address(std::ostream& out, const LssAddress& address) {
 /// Returns true if the node in the state configuration has this address; otherwise master.fault() has the reason.
 bool has_identity(LssMaster& master, const LssAddress& address) {
   for (std::uint8_t part = 0; part < CO_LSSM_PARTS; ++part) {
-    if (!master.run_alone(COLssmInquire, part)) {
+    if (!master.inquire(COLssmInquire, part) || !master.is_alone()) {
       return false;
     }
     if (master.value() != address[part]) {
@@ -127,12 +127,12 @@ bool set_node_id(LssMaster& master, std::uint8_t id) {
 bool inquire(LssMaster& master, std::ostream& out) {
   constexpr const char* parts[] = {"vendor-ID      ", "product code   ", "revision number", "serial number  "};
   for (std::uint8_t part = 0; part < CO_LSSM_PARTS; ++part) {
-    if (!master.run(COLssmInquire, part)) {
+    if (!master.inquire(COLssmInquire, part)) {
       return false;
     }
     out << parts[part] << text(" 0x%08X", master.value()) << std::endl;
   }
-  if (!master.run(COLssmInquireNodeId)) {
+  if (!master.inquire(COLssmInquireNodeId)) {
     return false;
   }
   out << "node-ID         " << (master.value() == no_node_id ? "none" : std::to_string(master.value())) << std::endl;

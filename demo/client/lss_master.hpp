@@ -38,6 +38,12 @@ class LssMaster {
     return wait_for_end(service(&lssm_, values..., note_end));
   }
 
+  /// Runs an inquiry, like run(). Repeats it once if there is no answer, because an adapter may have lost a frame.
+  template <class... Argument, class... Value>
+  bool inquire(CO_ERR (*service)(CO_LSSM*, Argument...), Value... values) {
+    return run(service, values...) || (timed_out() && run(service, values...));
+  }
+
   /// Runs a service that exactly one node must answer, like run(). Waits for further answers and returns false if there
   /// are any.
   template <class... Argument, class... Value>

@@ -90,6 +90,7 @@ class OddSlave {
   bool scanned_always = false;        ///< answers a fastscan in the state configuration, too
   bool ignores_selection = false;     ///< does not answer switch state selective
   bool always_configures = false;     ///< answers 11h in the state waiting, too
+  unsigned lost_inquiries = 0;        ///< number of the next inquiries without an answer
   std::uint32_t inquired_serial = 0;  ///< number in the answer to 5Dh; 0: that of 1018h:4
   unsigned node_ids = 0;              ///< number of 11h requests in the state configuration
   std::uint8_t node_id = 255;         ///< the last one received; 255: none
@@ -132,6 +133,10 @@ class OddSlave {
       return answer(0x11);
     }
     if (command >= 0x5A && command <= 0x5D && configuration_) {
+      if (lost_inquiries > 0) {
+        --lost_inquiries;
+        return false;
+      }
       const bool other = command == 0x5D && inquired_serial != 0;
       return answer(command, other ? inquired_serial : own_[command - 0x5AU]);
     }
@@ -291,6 +296,22 @@ TEST_CASE("demo lss: a node with another identity than the found one is not conf
     CHECK(desk.err.str() ==
           "LSS: the node at 0x00000001 0x00000002 0x00000003 0x00000004 reports another number: 0x00000005\n");
     CHECK_FALSE(desk.was_sent("7E5#1105000000000000"));
+  }
+}
+
+TEST_CASE("demo lss: an inquiry without answer is repeated once") {
+  for (const auto& by : {std::vector<std::string>{}, {"1", "2", "3", "4"}}) {
+    Desk desk;
+    OddSlave odd(desk, {1, 2, 3, 4});
+    odd.lost_inquiries = 1;
+    CHECK(desk.run(LssAction::set_id, "5", by) == 0);
+    CHECK(std::count(desk.frames.begin(), desk.frames.end(), "7E5#5A00000000000000") == 2);
+    CHECK(odd.node_id == 5);
+    odd.node_id = 255;
+    odd.lost_inquiries = 2;
+    CHECK(desk.run(LssAction::set_id, "6", by) == 1);
+    CHECK(desk.err.str() == "LSS: no answer; is there such a node on this bus, with power, and at this bit rate?\n");
+    CHECK(odd.node_id == 255);
   }
 }
 
