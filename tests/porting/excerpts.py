@@ -2,17 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """excerpts.py [--some] ROOT PAGE | --self-test
 
-Compares the blocks of C and C++ in PAGE with files of ROOT. A comment in front of a block names its file:
+Compares the blocks of code in PAGE with files of ROOT. A comment in front of a block names its file:
   <!-- tests/… -->         the block is an excerpt of the file, line by line
   <!-- all of tests/… -->  the block is the whole file
-A block without such a comment is a fault; with --some it is not compared.
+A block of C or C++ without such a comment is a fault; with --some it is not compared.
 Prints "1..N" and a line "ok …" or "not ok …" for each block.
 """
 import pathlib
 import re
 import sys
 
-BLOCK = re.compile(r"(?:<!-- (all of )?(\S+) -->\n)?```(c|cpp)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"(?:<!-- (all of )?(\S+) -->\n)?```(c|cpp|cmake|ini)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def judge(page, read, some=False):
@@ -23,7 +23,7 @@ def judge(page, read, some=False):
         line = page.count("\n", 0, block.start()) + 1
         text = read(name) if name else None
         if name is None:
-            if not some:
+            if not some and block.group(3) in ("c", "cpp"):
                 verdicts.append((False, f"line {line}: a block of C without a file"))
         elif text is None:
             verdicts.append((False, f"line {line}: there is no {name}"))
@@ -44,6 +44,7 @@ def self_test():
         ("half a line", page.format("t b;\n"), [False]),
         ("no file", "```c\nint a;\n```\n", [False]),
         ("a missing file", page.replace("a.c", "b.c").format("int a;\n"), [False]),
+        ("a line of an EDS", "<!-- a.c -->\n```ini\nint c;\n```\n", [False]),
         ("no C", "```sh\nmake\n```\n", []),
         ("a whole file", page.replace("a.c", "all of a.c").format("int a;\nint b;\n"), [True]),
         ("half a file", page.replace("a.c", "all of a.c").format("int b;\n"), [False]),
