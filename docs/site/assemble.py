@@ -20,8 +20,8 @@ from xml.etree import ElementTree
 FENCE = re.compile(r"^(```\w+) whole$", re.MULTILINE)
 PROGRAM = re.compile(r"(?<!\[)`(demo/[\w/.]+)`")
 # Names of source files of example programs, and their languages, in the order of a page.
-LANGUAGES = {"*.c": "c", "*.h": "c", "*.cpp": "cpp", "*.hpp": "cpp", "*.xdd": "xml", "CMakeLists.txt": "cmake",
-             "makefile": "make"}
+LANGUAGES = {"*.c": "c", "*.h": "c", "*.cpp": "cpp", "*.hpp": "cpp", "*.eds": "ini", "*.xdd": "xml",
+             "CMakeLists.txt": "cmake", "makefile": "make"}
 NUMBERS = re.compile(r"^(\| \[(.+)\]\((\w+\.md)\S*\) \|) \| \| \|$", re.MULTILINE)
 STACKS = ("CANopen-Stack 4.4", "CANopenNode 4.1")
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")

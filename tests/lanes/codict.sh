@@ -68,6 +68,11 @@ codict_pages() {
   mkdir -p "$copy/build/codict"
   ln -s "$codict" "$copy/build/codict/codict"
   cp "$fixtures"/network/{drive.eds,io.eds,plan.yaml} "$root"/demo/clock/{clock.xdd,generated/clock.eds} "$copy"
-  cp "$root/demo/heater/heater.xdd" "$copy/device.xdd"
+  cp "$root/demo/clock/clock.xdd" "$copy/device.xdd"
   PATH=$copy/build/codict:$PATH run_pages "$copy"
+  local page=docs/start/4-from-an-eds.md
+  run_tap python3 "$root/tests/porting/excerpts.py" "$root" $page
+  run_tap python3 "$root/tests/porting/excerpts.py" --some "$root" docs/use.md
+  check "$page shows the output of its program" python3 "$root/tests/system/page_output.py" "$root/$page" \
+    heater_simulation "${copy%/*}/heater/build/heater_simulation"
 }

@@ -20,7 +20,7 @@ lane() {
     "$build/release/tests/lexican_bus_tests" "$check" "$build/heater/heater" "$results/vcan.commands"
 }
 
-# Builds as docs/use.md describes, with the codict that a project for another machine has built.
+# Builds as docs/start/4-from-an-eds.md describes, with the codict that a project for another machine has built.
 heater() {
   host_codict && cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja -DLEXICAN_CODICT="$codict" \
     -DLEXICAN_WARNINGS_AS_ERRORS=ON &&

@@ -455,7 +455,7 @@ $node --can lo >/tmp/tour 2>&1
 [ $? -eq 2 ] && grep -q lo /tmp/tour
 verdict $? "an interface that is not CAN: named, status 2" "$(tail -n 1 /tmp/tour)"
 
-# demo/heater: its dictionary is generated from an XDD during the build.
+# demo/heater: its dictionary is generated from an EDS during the build.
 request=609 response=589 heartbeat=709 tpdo=189
 listen $heartbeat 1
 heater vcan0 9 &
