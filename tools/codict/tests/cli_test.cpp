@@ -214,7 +214,7 @@ TEST_CASE("codict check: equal findings are folded unless all are requested") {
   const Ran folded = check("--level note storage_location.eds bit_pattern.eds");
   CHECK(folded.out.find("bit_pattern.eds:32:14: note: ") != std::string::npos);
   CHECK(folded.out.find("    and 2 more\n") != std::string::npos);
-  CHECK(folded.err == "codict: 4 notes\n");
+  CHECK(folded.err == "codict: 5 notes\n");
   const Ran all = check("--level note --all bit_pattern.eds");
   CHECK(all.out.find("bit_pattern.eds:46:14: note: ") != std::string::npos);
   CHECK(all.out.find("more") == std::string::npos);

@@ -74,10 +74,11 @@ TEST_CASE("EDS: Factor, Unit and Description of python-canopen are read") {
   CHECK(eds.found() == "29:1 eds-dialect\n30:1 eds-dialect\n31:1 eds-dialect\n");
 }
 
-TEST_CASE("EDS: a storage group in a comment is read") {
+TEST_CASE("EDS: storage group and TPDO trigger in comments are read") {
   const Reading eds("storage_location.eds");
   CHECK(eds.at(0x2000).node->storage_group.value == "PERSIST_COMM");
-  CHECK(eds.found() == "27:2 eds-hidden-key\n");
+  CHECK(eds.at(0x2000).node->flags_pdo->value);
+  CHECK(eds.found() == "27:2 eds-hidden-key\n30:2 eds-hidden-key\n");
 }
 
 TEST_CASE("EDS: an object missing in all lists is read") {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "generating.hpp"
@@ -95,6 +96,26 @@ TEST_CASE("gen: a PDO without mapping parameter, or with COB-ID 0, is switched o
   const Generated zero = generate(pdo('T', "0", "1", {"0x20000010"}) + objects);
   CHECK(zero.says("1802h sub 1 has no CAN-ID"));
   CHECK(configuration_of(zero).find("{0x80000000u},  // od_1802_1") != std::string::npos);
+}
+
+TEST_CASE("gen: an event-driven TPDO that neither flag A nor a timer transmits is noted") {
+  const auto is_noted = [](const std::string& eds, gen::Options options = {}) {
+    return generate(eds, std::move(options)).notes.find("gen-pdo-trigger\n") != std::string::npos;
+  };
+  const std::string tpdo = pdo('T', "$NODEID+0x180", "1", {"0x20000010"});
+  CHECK(is_noted(tpdo + objects));
+  CHECK(generate(tpdo + objects).says("TPDO 3 is event-driven without event timer, and maps no object with flag A"));
+  CHECK(is_noted(tpdo + sub("1802sub5", 6, "rw", "0") + objects));
+  CHECK_FALSE(is_noted(tpdo + sub("1802sub5", 6, "rw", "100") + objects));
+  CHECK_FALSE(is_noted(pdo('R', "$NODEID+0x200", "1", {"0x20000010"}) + objects));
+  CHECK_FALSE(is_noted(pdo('T', "0x80000180", "1", {"0x20000010"}) + objects));
+  const Generated triggers = generate(tpdo + variable("2000", 6, "rw", "PDOMapping=1\n;TPDODetectCos=1"));
+  CHECK(triggers.notes.find("gen-pdo-trigger") == std::string::npos);
+  CHECK(triggers.has("CO_OBJ___APRW, CO_TUNSIGNED16, (CO_DATA)(&small_ram.od_2000_0)"));
+  CHECK(is_noted(tpdo + variable("2000", 6, "rw", "PDOMapping=1\n;TPDODetectCos=0")));
+  gen::Options options;
+  options.trigger_tpdos = true;
+  CHECK_FALSE(is_noted(tpdo + objects, options));
 }
 
 TEST_CASE("gen: the generated description has the PDO switched off") {

@@ -121,10 +121,11 @@ TEST_CASE("merge: a list with gaps is extended after its last number; FFh is not
         "[2000]\nSubNumber=1\n[2000sub0]\nDefaultValue=1\n\n[2000subFF]\nDefaultValue=7\n");
 }
 
-TEST_CASE("merge: a storage group in a comment is merged like other values") {
+TEST_CASE("merge: storage group and TPDO trigger in comments are merged like other values") {
   CHECK(merged("[2000]\nParameterName=a\n\n[2001]\nParameterName=b\n;StorageLocation=RAM\n",
-               "[2000]\nLowLimit=0\n;StorageLocation=ROM\n[2001]\n; why\n;StorageLocation=PERSIST\n") ==
-        "[2000]\nParameterName=a\nLowLimit=0\n;StorageLocation=ROM\n\n[2001]\nParameterName=b\n"
+               "[2000]\nLowLimit=0\n;StorageLocation=ROM\n;TPDODetectCos=1\n[2001]\n; why\n"
+               ";StorageLocation=PERSIST\n") ==
+        "[2000]\nParameterName=a\nLowLimit=0\n;StorageLocation=ROM\n;TPDODetectCos=1\n\n[2001]\nParameterName=b\n"
         ";StorageLocation=PERSIST\n");
   const Merging merging("[2001]\nParameterName=b\n;StorageLocation=RAM\n", "[2001]\n;StorageLocation=ROM\n");
   REQUIRE(merging.replaced.size() == 1);

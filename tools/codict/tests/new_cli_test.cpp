@@ -49,6 +49,13 @@ TEST_CASE("codict new --profile: the description passes all checks without notes
   }
 }
 
+TEST_CASE("codict new --profile 401: a new value of the inputs transmits the TPDO") {
+  const Directory directory;
+  CHECK(run_in(directory, "new pump --profile 401").status == 0);
+  CHECK(has(test::bytes_of(directory / "pump/pump.eds"), "PDOMapping=1\n;TPDODetectCos=1\n"));
+  CHECK(has(test::bytes_of(directory / "pump/generated/pump_od.c"), "PUMP_6000_1 | CO_OBJ___APR_,"));
+}
+
 TEST_CASE("codict new --from: the description is copied; names are those of the file") {
   const Directory directory;
   const std::string source = test::copy_to(directory, "drive.eds");

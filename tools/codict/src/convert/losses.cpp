@@ -111,13 +111,12 @@ void count_configuration(const Device& device, Counter& counter) {
 
 Details properties_of(const Entry& entry) {
   const NodeProperties& node = *entry.node;
-  const std::array<std::pair<const Text&, const char*>, 7> known = {{{*node.disabled, "CO_disabled"},
+  const std::array<std::pair<const Text&, const char*>, 6> known = {{{*node.disabled, "CO_disabled"},
                                                                      {*node.count_label, "CO_countLabel"},
                                                                      {*node.srdo, "CO_accessSRDO"},
                                                                      {*node.string_length_min, "CO_stringLengthMin"},
                                                                      {*node.byte_length, "CO_byteLength"},
-                                                                     {*node.extension_io, "CO_extensionIO"},
-                                                                     {*node.flags_pdo, "CO_flagsPDO"}}};
+                                                                     {*node.extension_io, "CO_extensionIO"}}};
   Details names;
   for (const Property& property : *entry.properties) {
     append(names, Details(property.value.is_empty() ? 0 : 1, property.name));

@@ -147,19 +147,21 @@ class Merger {
           base_.add_key(section, overlay_.text(key->name), overlay_.text(key->value), edits_) && is_possible_;
     }
     if (is_of_object(name)) {
-      change_storage(section, by);
+      change_hidden(section, by, eds::storage_key);
+      change_hidden(section, by, eds::trigger_key);
     }
   }
 
-  void change_storage(const eds::Section& section, const eds::Section& by) {
-    const std::optional<eds::Key> group = eds::storage_location(overlay_, by);
-    const std::optional<eds::Key> old = eds::storage_location(base_, section);
-    if (group && old) {
-      replace(section, *old, overlay_.text(group->value));
-    } else if (group) {
+  // Merges a key in a comment.
+  void change_hidden(const eds::Section& section, const eds::Section& by, std::string_view name) {
+    const std::optional<eds::Key> key = eds::comment_key(overlay_, by, name);
+    const std::optional<eds::Key> old = eds::comment_key(base_, section, name);
+    if (key && old) {
+      replace(section, *old, overlay_.text(key->value));
+    } else if (key) {
       std::string bytes;
-      is_possible_ = base_.to_source(overlay_.text(group->value), bytes) && is_possible_;
-      edits_.insert(end_of(section), end_ + ";StorageLocation=" + bytes);
+      is_possible_ = base_.to_source(overlay_.text(key->value), bytes) && is_possible_;
+      edits_.insert(end_of(section), end_ + ";" + std::string(name) + "=" + bytes);
     }
   }
 

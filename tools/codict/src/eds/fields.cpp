@@ -35,12 +35,12 @@ Span extent_of(const Document& document, const Section& section) {
   return {source.line(section.line).begin, source.line(section.end - 1).end};
 }
 
-std::optional<Key> storage_location(const Document& document, const Section& section) {
-  constexpr std::string_view word = "StorageLocation=";
+std::optional<Key> comment_key(const Document& document, const Section& section, std::string_view name) {
   for (const Span comment : document.comments(section)) {
-    if (equal_ignoring_case(document.raw(comment).substr(0, word.size()), word)) {
-      const std::uint32_t begin = comment.begin + static_cast<std::uint32_t>(word.size());
-      return Key{{comment.begin, begin - 1}, {begin, comment.end}, 0, false};
+    const std::string_view text = document.raw(comment);
+    if (equal_ignoring_case(text.substr(0, name.size()), name) && text.substr(name.size(), 1) == "=") {
+      const std::uint32_t end = comment.begin + static_cast<std::uint32_t>(name.size());
+      return Key{{comment.begin, end}, {end + 1, comment.end}, 0, false};
     }
   }
   return std::nullopt;

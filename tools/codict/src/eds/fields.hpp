@@ -44,8 +44,12 @@ void report_length(const Text& text, std::size_t longest, Findings& findings);
 /// Returns the span of a section from its header to its last line.
 Span extent_of(const Document& document, const Section& section);
 
-/// Returns ";StorageLocation=PERSIST", which libEDSsharp stores in a comment, as a key; none if there is none.
-std::optional<Key> storage_location(const Document& document, const Section& section);
+/// Keys that CANopenEditor (libEDSsharp) stores in comments: ";StorageLocation=PERSIST".
+inline constexpr std::string_view storage_key = "StorageLocation";
+inline constexpr std::string_view trigger_key = "TPDODetectCos";
+
+/// Returns a key in a comment; none if there is none.
+std::optional<Key> comment_key(const Document& document, const Section& section, std::string_view name);
 
 /// Sets the member of a key. Returns false if no slot has this key.
 template <typename T, std::size_t size>

@@ -34,14 +34,27 @@ bool read_python_key(Entry& entry, const Key& key, const Reader& reader) {
   return true;
 }
 
-void read_storage_group(Entry& entry, const Section& section, const Reader& reader) {
-  if (const std::optional<Key> key = storage_location(reader.document, section)) {
+// Reads the keys that CANopenEditor stores in comments.
+void read_hidden_keys(Entry& entry, const Section& section, const Reader& reader) {
+  const auto read = [&](std::string_view name, std::string_view what) {
+    const std::optional<Key> key = comment_key(reader.document, section, name);
+    if (key) {
+      reader.findings.add(
+          rules::hidden_key, {key->name.begin, key->value.end},
+          fmt::format("{} {} in a comment of libEDSsharp", what, in_quotes(reader.document.text(key->value))),
+          "keep the comment, or convert the description to XDD");
+    }
+    return key;
+  };
+  if (const std::optional<Key> key = read(storage_key, "storage group")) {
     Field<std::string>& group = entry.node.edit().storage_group;
     static_cast<Text&>(group) = text_of(reader.document, *key);
     group.value = group.text;
-    reader.findings.add(rules::hidden_key, {key->name.begin, key->value.end},
-                        fmt::format("storage group {} in a comment of libEDSsharp", in_quotes(group.text)),
-                        "keep the comment, or convert the description to XDD");
+  }
+  if (const std::optional<Key> key = read(trigger_key, trigger_key)) {
+    Field<bool>& flag = entry.node.edit().flags_pdo.edit();
+    static_cast<Text&>(flag) = text_of(reader.document, *key);
+    interpret_flag(flag, reader.findings);
   }
 }
 
@@ -199,7 +212,7 @@ void read_sub(Sub& sub, const Section& section, const Reader& reader) {
       store_opaque_key(key, sub.others, reader);
     }
   }
-  read_storage_group(sub, section, reader);
+  read_hidden_keys(sub, section, reader);
 }
 
 // Completes a missing default value of sub-index 0 with the highest sub-index. [306: 4.6.3]
@@ -250,7 +263,7 @@ void read_object(Object& object, const Section& section, const Reader& reader) {
   for (const Key& key : section.keys) {
     read_key(object, key, reader);
   }
-  read_storage_group(object, section, reader);
+  read_hidden_keys(object, section, reader);
 }
 
 std::size_t number_of_objects(const std::vector<NamedSection>& sorted) {

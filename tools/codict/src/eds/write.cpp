@@ -224,6 +224,9 @@ void Writer::entry(const Entry& entry) {
   if (!group.is_empty() || !group.value.empty()) {
     line(";StorageLocation", group.value.empty() ? group.text : group.value);  // the form that other tools read
   }
+  if (entry.node->flags_pdo->value) {
+    line(";TPDODetectCos", "1");
+  }
 }
 
 void Writer::sub_list(const std::string& name, const std::vector<std::pair<unsigned, std::string>>& entries) {

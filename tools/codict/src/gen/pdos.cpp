@@ -16,6 +16,8 @@ constexpr std::uint32_t off = 0x80000000;  // bit 31 of a COB-ID: the PDO is dis
 constexpr std::uint32_t identifier_bits = 0x1FFFFFFF;
 constexpr std::uint16_t to_mapping = 0x200;  // distance from a communication parameter to its mapping parameter
 
+constexpr std::uint64_t event_driven = 254;  // first transmission type; 255 is the other [301:7.5.2.35]
+
 constexpr bool is_receive(std::uint16_t index) { return (index & 0x1800U) == 0x1000; }
 
 // Returns "TPDO 3" for 1802h and 1A02h.
@@ -180,6 +182,44 @@ void switch_off(Plan& plan, Findings& findings) {
   }
 }
 
+bool triggers_tpdo(const Plan& plan, const Item& mapping) {
+  const Link link(mapping);
+  const Item* const object = plan.find(link.index, link.sub_index);
+  return object != nullptr && (object->flags & flag_trigger) != 0;
+}
+
+bool maps_trigger(const Plan& plan, const Item& number) {
+  for (unsigned sub = 1; sub <= number.value.integer.magnitude; ++sub) {
+    const Item* const mapping = plan.find(number.index, static_cast<std::uint8_t>(sub));
+    if (mapping != nullptr && triggers_tpdo(plan, *mapping)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Reports TPDOs that neither a new value nor a timer transmits.
+void check_triggers(const Plan& plan, Findings& findings) {
+  for (const Item& item : plan.items) {
+    const bool is_on =
+        item.type == "CO_TPDO_ID" && !is_receive(item.index) && (item.value.integer.magnitude & off) == 0;
+    const Item* const type = is_on ? plan.find(item.index, 2) : nullptr;
+    const Item* const number = is_on ? plan.find(static_cast<std::uint16_t>(item.index + to_mapping), 0) : nullptr;
+    if (type == nullptr || number == nullptr || type->value.integer.magnitude < event_driven ||
+        is_multiplexed(*number)) {
+      continue;
+    }
+    const Item* const timer = plan.find(item.index, 5);
+    const bool has_timer = timer != nullptr && timer->value.integer.magnitude != 0;
+    if (!has_timer && !maps_trigger(plan, *number)) {
+      findings.add(
+          rules::pdo_trigger, type->value.is_given ? type->value.span : type->span,
+          fmt::format("{} is event-driven without event timer, and maps no object with flag A", title_of(item.index)),
+          "set CO_flagsPDO (;TPDODetectCos=1) of an object, or call COTPdoTrigPdo()");
+    }
+  }
+}
+
 // Returns true if a mapping entry is a constant of the table and below the number of mapped objects, so that
 // CO_OD_CHECK() checks it.
 bool is_constant_mapping(const Plan& plan, const Item& item) {
@@ -213,6 +253,7 @@ void plan_pdos(Plan& plan, Findings& findings) {
     }
   }
   switch_off(plan, findings);
+  check_triggers(plan, findings);
   make_mappable(plan);
 }
 

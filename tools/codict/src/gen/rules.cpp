@@ -25,6 +25,7 @@ const Rule pdo_object{"gen-pdo-object", Severity::warning,
 const Rule pdo_off{"gen-pdo-off", Severity::warning, "PDO switched off, as the stack does not create it"};
 const Rule pdo_mappable{"gen-pdo-mappable", Severity::warning, "PDO maps an object with PDOMapping=0"};
 const Rule pdo_direction{"gen-pdo-direction", Severity::warning, "PDO maps an object of the other direction"};
+const Rule pdo_trigger{"gen-pdo-trigger", Severity::note, "event-driven TPDO without event timer and flag A"};
 const Rule limits{"gen-limits", Severity::warning, "limits that cannot be checked at run time"};
 const Rule limits_default{"gen-limits-default", Severity::warning, "default value outside LowLimit and HighLimit"};
 const Rule sub_zero{"gen-sub-0", Severity::warning, "ARRAY or RECORD without sub-index 0"};
@@ -40,12 +41,12 @@ namespace lexican::codict::gen {
 
 const std::vector<const Rule*>& all_rules() {
   static const std::vector<const Rule*> all = {
-      &rules::type,           &rules::access,        &rules::value,        &rules::value_none,    &rules::node_id,
-      &rules::no_subs,        &rules::place,         &rules::name,         &rules::name_shared,   &rules::count,
-      &rules::store,          &rules::restore,       &rules::store_joined, &rules::store_unused,  &rules::pdo_bits,
-      &rules::pdo_object,     &rules::pdo_off,       &rules::pdo_mappable, &rules::pdo_direction, &rules::limits,
-      &rules::limits_default, &rules::sub_zero,      &rules::cob_id,       &rules::left_out,      &rules::external,
-      &rules::capacity,       &rules::srdo_signature};
+      &rules::type,           &rules::access,         &rules::value,        &rules::value_none,    &rules::node_id,
+      &rules::no_subs,        &rules::place,          &rules::name,         &rules::name_shared,   &rules::count,
+      &rules::store,          &rules::restore,        &rules::store_joined, &rules::store_unused,  &rules::pdo_bits,
+      &rules::pdo_object,     &rules::pdo_off,        &rules::pdo_mappable, &rules::pdo_direction, &rules::limits,
+      &rules::limits_default, &rules::sub_zero,       &rules::cob_id,       &rules::left_out,      &rules::external,
+      &rules::capacity,       &rules::srdo_signature, &rules::pdo_trigger};
   return all;
 }
 

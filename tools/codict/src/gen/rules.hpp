@@ -28,6 +28,7 @@ extern const Rule pdo_object;
 extern const Rule pdo_off;
 extern const Rule pdo_mappable;
 extern const Rule pdo_direction;
+extern const Rule pdo_trigger;
 extern const Rule limits;
 extern const Rule limits_default;
 extern const Rule sub_zero;

@@ -28,6 +28,7 @@ struct Value {
   const char* access;
   const char* default_value;
   bool is_mappable = false;
+  bool triggers_tpdo = false;
 };
 
 // Object. The first value of an array or record is sub-index 0.
@@ -125,7 +126,7 @@ Rows io_rows() {
           {0x6000,
            array,
            "Read input 8-bit",
-           {{count_name, u8, "const", "1"}, {"Digital inputs 1 to 8", u8, "ro", "0", true}}},
+           {{count_name, u8, "const", "1"}, {"Digital inputs 1 to 8", u8, "ro", "0", true, true}}},
           {0x6200,
            array,
            "Write output 8-bit",
@@ -150,10 +151,13 @@ Rows drive_rows() {
           {0x6502, var, "Supported drive modes", {{"", u32, "ro", "0x00000004"}}}};
 }
 
+constexpr const char* trigger_note = "; codict: ignore eds-hidden-key -- CiA 306 has no key for the trigger of TPDOs\n";
+
 std::string lines_of(const Value& value, std::string_view name) {
   return fmt::format(
-      "ParameterName={}\nObjectType=0x7\nDataType=0x{:04X}\nAccessType={}\nDefaultValue={}\nPDOMapping={}\n", name,
-      value.type, value.access, value.default_value, value.is_mappable ? 1 : 0);
+      "ParameterName={}\nObjectType=0x7\nDataType=0x{:04X}\nAccessType={}\nDefaultValue={}\nPDOMapping={}\n{}", name,
+      value.type, value.access, value.default_value, value.is_mappable ? 1 : 0,
+      value.triggers_tpdo ? ";TPDODetectCos=1\n" : "");
 }
 
 std::string section_of(const Row& row) {
@@ -163,7 +167,9 @@ std::string section_of(const Row& row) {
   std::string sections = fmt::format("\n[{:04X}]\nParameterName={}\nObjectType=0x{}\nSubNumber={}\n", row.index,
                                      row.name, row.code, row.values.size());
   for (std::size_t sub = 0; sub < row.values.size(); ++sub) {
-    sections += fmt::format("\n[{:04X}sub{:X}]\n{}", row.index, sub, lines_of(row.values[sub], row.values[sub].name));
+    const Value& value = row.values[sub];
+    sections += fmt::format("\n{}[{:04X}sub{:X}]\n{}", value.triggers_tpdo ? trigger_note : "", row.index, sub,
+                            lines_of(value, value.name));
   }
   return sections;
 }

@@ -244,7 +244,9 @@ void EntryWriter::properties(const Entry& entry) {
   known("CO_countLabel", node.count_label);
   known("CO_storageGroup", node.storage_group);
   known("CO_extensionIO", node.extension_io);
-  known("CO_flagsPDO", node.flags_pdo);
+  if (node.flags_pdo->is_given) {
+    property("CO_flagsPDO", is_eds_ ? (node.flags_pdo->value ? "true" : "false") : node.flags_pdo->text);
+  }
   known("CO_accessSRDO", node.srdo);
   known("CO_byteLength", node.byte_length);
   known("CO_stringLengthMin", node.string_length_min);
