@@ -344,6 +344,60 @@ TEST_CASE("codict set: a value missing in an XDD is added as an attribute of its
   CHECK(bytes_of(path) == wanted);
 }
 
+TEST_CASE("codict set: properties of CANopenNode are set in an XDD, and in comments of an EDS") {
+  const Directory directory;
+  const std::string eds = copy_to(directory, "drive.eds");
+  std::string wanted = bytes_of(eds);
+  const std::size_t section = wanted.find("[2000]");
+  REQUIRE(section != std::string::npos);
+  const std::size_t end = wanted.find("\n\n", section);
+  wanted.insert(end, "\n;StorageLocation=PERSIST_APP\n;TPDODetectCos=1");
+  CHECK(run("set " + eds + " 2000 CO_storageGroup=PERSIST_APP CO_flagsPDO=true").status == 0);
+  CHECK(bytes_of(eds) == wanted);
+  CHECK(run("set " + eds + " 2000 TPDODetectCos=1").status == 0);
+  CHECK(bytes_of(eds) == wanted);
+  CHECK(run("get " + eds + " 2000 CO_storageGroup").out == "PERSIST_APP\n");
+  const Ran refused = run("set " + eds + " 2000 CO_extensionIO=true");
+  CHECK(refused.status == 2);
+  CHECK(has(refused.err, "an EDS or DCF cannot express CO_extensionIO: convert it to XDD"));
+
+  const std::string xdd = directory / "drive.xdd";
+  CHECK(run("convert " + eds + " -o " + xdd).status == 0);
+  std::string changed = bytes_of(xdd);
+  CHECK(has(changed, "<co:property name=\"CO_flagsPDO\" value=\"true\"/>"));
+  const std::size_t begin = changed.find("</co:parameter>", changed.find("\"UID_OBJ_1017\""));
+  const std::size_t line = changed.rfind('\n', begin);
+  const std::string indent = changed.substr(line, begin - line) + "  ";
+  changed.insert(line, indent + "<co:property name=\"CO_storageGroup\" value=\"PERSIST_COMM\"/>" + indent +
+                           "<co:property name=\"CO_extensionIO\" value=\"true\"/>");
+  changed.replace(changed.find("PERSIST_APP"), 11, "PERSIST_MFR");
+  CHECK(run("set " + xdd + " 1017 StorageLocation=PERSIST_COMM CO_extensionIO=1 2000 CO_storageGroup=PERSIST_MFR")
+            .status == 0);
+  CHECK(bytes_of(xdd) == changed);
+  CHECK(run("get " + xdd + " 1017 CO_extensionIO").out == "true\n");
+  CHECK(run("check " + xdd).status == 0);
+  CHECK(has(run("set " + xdd + " 1018 CO_storageGroup=A").err, "no parameter (uniqueIDRef) for CO_storageGroup"));
+  CHECK(bytes_of(xdd) == changed);
+}
+
+TEST_CASE("codict set: several targets are changed in one call, or none") {
+  const Directory directory;
+  const std::string eds = copy_to(directory, "drive.eds");
+  const std::string before = bytes_of(eds);
+  CHECK(run("set " + eds + " 1017 default=5 2000 default=7 FileInfo FileVersion=2").status == 0);
+  CHECK(run("get " + eds + " 1017 default").out == "5\n");
+  CHECK(run("get " + eds + " 2000 default").out == "7\n");
+  CHECK(run("get " + eds + " FileInfo FileVersion").out == "2\n");
+  test::write_bytes(eds, before);
+  const std::string name = "codict: " + eds;
+  CHECK(run("set " + eds + " 1017 default=5 2009 default=7").err == name + ": object 2009 does not exist\n");
+  CHECK(run("set " + eds + " 1017 default=5 2000").err == name + ": no field=value for 2000\n");
+  CHECK(run("set " + eds + " default=5 2000").err == name + ": no object or section before default=5\n");
+  CHECK(run("set " + eds + " 1017 default=5 2000 default=1 default=2").err ==
+        name + ": two values for one field: default=2\n");
+  CHECK(bytes_of(eds) == before);
+}
+
 TEST_CASE("codict set: a type of a parameter is changed there and in the object") {
   const Directory directory;
   const std::string path = directory / "device.xdd";

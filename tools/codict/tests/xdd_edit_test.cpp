@@ -74,7 +74,7 @@ TEST_CASE("XDD edit: every text of an object can be written back at its place") 
   CHECK(reading.raw(mode.span).substr(0, 29) == "<CANopenObject index=\"2000\" n");
 }
 
-TEST_CASE("XDD edit: a new attribute is the last one of its tag, a new element the first child") {
+TEST_CASE("XDD edit: a new attribute is the last one of its tag, a new element the last child") {
   const std::string bytes =
       "<x:ISO15745ProfileContainer xmlns:x=\"http://www.canopen.org/xml/1.1\"><x:ISO15745Profile><ProfileBody>"
       "<x:ApplicationProcess><x:parameterList>\n"
@@ -86,9 +86,9 @@ TEST_CASE("XDD edit: a new attribute is the last one of its tag, a new element t
   const Entry& entry = reading.at(0x2000);
   Edits edits;
   REQUIRE(reading.document.add_attribute(entry.span.begin, "PDOmapping", "TPDO", edits));
-  REQUIRE(reading.document.add_element(entry.parameter_id->span.begin, "defaultValue", "value", "7", edits));
-  const std::string expected = replaced(replaced(bytes, "\"P\" />", "\"P\" PDOmapping=\"TPDO\" />"), "\n    <UINT/>",
-                                        "\n    <x:defaultValue value=\"7\"/>\n    <UINT/>");
+  REQUIRE(reading.document.add_element(entry.parameter_extent, "defaultValue", {{"value", "7"}}, edits));
+  const std::string expected = replaced(replaced(bytes, "\"P\" />", "\"P\" PDOmapping=\"TPDO\" />"), "<UINT/>",
+                                        "<UINT/>\n    <x:defaultValue value=\"7\"/>");
   CHECK(with(reading, edits) == expected);
   CHECK(XmlReading(expected).at(0x2000).default_value.text == "7");
 }

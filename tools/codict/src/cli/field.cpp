@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "eds/fields.hpp"
 #include "eds/names.hpp"
 #include "text/number.hpp"
 
@@ -20,11 +21,11 @@ const Text& type_of(const Entry& entry) {
 
 struct Word {
   std::string_view field;
-  std::string_view key;  // key of CiA 306
+  std::string_view key;  // of CiA 306, or in a comment (";StorageLocation"); empty: an EDS has none
   const Text& (*text)(const Entry&);
 };
 
-constexpr std::array<Word, 11> words = {{
+constexpr std::array<Word, 19> words = {{
     {"name", "ParameterName", [](const Entry& e) -> const Text& { return e.name; }},
     {"object", "ObjectType", [](const Entry& e) -> const Text& { return e.object_code; }},
     {"type", "DataType", type_of},
@@ -36,11 +37,23 @@ constexpr std::array<Word, 11> words = {{
     {"pdo", "PDOMapping", [](const Entry& e) -> const Text& { return e.pdo_mapping; }},
     {"flags", "ObjFlags", [](const Entry& e) -> const Text& { return e.flags; }},
     {"denotation", "Denotation", [](const Entry& e) -> const Text& { return e.denotation; }},
+    {"CO_storageGroup", ";StorageLocation", [](const Entry& e) -> const Text& { return e.node->storage_group; }},
+    {"CO_flagsPDO", ";TPDODetectCos", [](const Entry& e) -> const Text& { return *e.node->flags_pdo; }},
+    {"CO_extensionIO", "", [](const Entry& e) -> const Text& { return *e.node->extension_io; }},
+    {"CO_disabled", "", [](const Entry& e) -> const Text& { return *e.node->disabled; }},
+    {"CO_countLabel", "", [](const Entry& e) -> const Text& { return *e.node->count_label; }},
+    {"CO_accessSRDO", "", [](const Entry& e) -> const Text& { return *e.node->srdo; }},
+    {"CO_stringLengthMin", "", [](const Entry& e) -> const Text& { return *e.node->string_length_min; }},
+    {"CO_byteLength", "", [](const Entry& e) -> const Text& { return *e.node->byte_length; }},
 }};
 
+bool is_in_comment(std::string_view key) { return key.substr(0, 1) == ";"; }
+
+// A key in a comment is also the name of its field, without the semicolon.
 const Word* find_word(std::string_view field) {
-  const auto* const word =
-      std::find_if(words.begin(), words.end(), [field](const Word& w) { return equal_ignoring_case(w.field, field); });
+  const auto* const word = std::find_if(words.begin(), words.end(), [field](const Word& w) {
+    return equal_ignoring_case(w.field, field) || (is_in_comment(w.key) && equal_ignoring_case(w.key.substr(1), field));
+  });
   return word != words.end() ? word : nullptr;
 }
 
@@ -69,6 +82,25 @@ std::string_view list_of(std::string_view key) {
 std::string_view key_of(std::string_view field) {
   const Word* const word = find_word(field);
   return word != nullptr ? word->key : field;
+}
+
+std::string_view property_of(std::string_view field) {
+  const Word* const word = find_word(field);
+  return word != nullptr && word->field.substr(0, 3) == "CO_" ? word->field : std::string_view();
+}
+
+std::optional<eds::Key> find_key(const eds::Document& document, const eds::Section& section, std::string_view key) {
+  if (is_in_comment(key)) {
+    return eds::comment_key(document, section, key.substr(1));
+  }
+  const eds::Key* const found = document.find(section, key);
+  return found != nullptr ? std::optional(*found) : std::nullopt;
+}
+
+bool add_key(const eds::Document& document, const eds::Section& section, std::string_view key, std::string_view text,
+             Edits& edits) {
+  return is_in_comment(key) ? eds::add_comment_key(document, section, key.substr(1), text, edits)
+                            : document.add_key(section, key, text, edits);
 }
 
 bool parse_assignment(std::string_view text, Assignment& assignment, std::string& why) {

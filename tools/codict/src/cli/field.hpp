@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,8 +13,16 @@
 
 namespace lexican::codict::cli {
 
-/// Returns the key of CiA 306 for a field name of codict ("default"); other words are returned unchanged.
+/// Returns the key of CiA 306 for a field name of codict ("default"), or the key in a comment (";StorageLocation");
+/// empty for properties that an EDS cannot express. Other words are returned unchanged.
 std::string_view key_of(std::string_view field);
+/// Returns the property of CANopenNode for a field name ("CO_flagsPDO"); empty for other fields.
+std::string_view property_of(std::string_view field);
+
+/// Find and add a key, also in a comment, by the name that key_of() returns.
+std::optional<eds::Key> find_key(const eds::Document& document, const eds::Section& section, std::string_view key);
+bool add_key(const eds::Document& document, const eds::Section& section, std::string_view key, std::string_view text,
+             Edits& edits);
 
 /// Argument "field=text".
 struct Assignment {

@@ -55,10 +55,11 @@ int get_from_sections(const Input& input, const GetOptions& options) {
   if (options.field.empty()) {
     return get_all(input, *section, options.is_json);
   }
-  const eds::Key* const key = input.eds->find(*section, key_of(options.field));
-  if (key == nullptr) {
+  const std::optional<eds::Key> key = find_key(*input.eds, *section, key_of(options.field));
+  if (!key) {
+    const std::string_view name = key_of(options.field);
     print_message(fmt::format("{}: [{}] has no {}", input.source().name(), input.eds->text(section->name),
-                              key_of(options.field)));
+                              name.empty() ? options.field : name));
     return unusable;
   }
   if (options.is_json) {

@@ -159,9 +159,7 @@ class Merger {
     if (key && old) {
       replace(section, *old, overlay_.text(key->value));
     } else if (key) {
-      std::string bytes;
-      is_possible_ = base_.to_source(overlay_.text(key->value), bytes) && is_possible_;
-      edits_.insert(end_of(section), end_ + ";" + std::string(name) + "=" + bytes);
+      is_possible_ = eds::add_comment_key(base_, section, name, overlay_.text(key->value), edits_) && is_possible_;
     }
   }
 

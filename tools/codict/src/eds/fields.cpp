@@ -46,6 +46,14 @@ std::optional<Key> comment_key(const Document& document, const Section& section,
   return std::nullopt;
 }
 
+bool add_comment_key(const Document& document, const Section& section, std::string_view name, std::string_view text,
+                     Edits& edits) {
+  std::string line;
+  const bool is_possible = document.to_source(fmt::format(";{}={}", name, text), line);
+  edits.insert(document.source().line(document.last_line(section)).end, std::string(document.line_end()) + line);
+  return is_possible;
+}
+
 void report_length(const Text& text, std::size_t longest, Findings& findings) {
   if (longest != 0 && text.span.size() > longest) {
     findings.add(rules::key_length, text.span,

@@ -50,6 +50,9 @@ inline constexpr std::string_view trigger_key = "TPDODetectCos";
 
 /// Returns a key in a comment; none if there is none.
 std::optional<Key> comment_key(const Document& document, const Section& section, std::string_view name);
+/// Adds a key in a comment behind the last line of a section. Returns false in the cases of Document::set_value().
+bool add_comment_key(const Document& document, const Section& section, std::string_view name, std::string_view text,
+                     Edits& edits);
 
 /// Sets the member of a key. Returns false if no slot has this key.
 template <typename T, std::size_t size>

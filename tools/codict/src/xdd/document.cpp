@@ -328,22 +328,28 @@ bool Document::add_attribute(std::uint32_t at, std::string_view name, std::strin
   return true;
 }
 
-bool Document::add_element(std::uint32_t at, std::string_view name, std::string_view attribute, std::string_view text,
-                           Edits& edits) const {
-  std::string bytes;
-  const std::uint32_t begin = tag_begin(at);
-  const std::uint32_t end = tag_end(begin);
-  if (!encoded(text, true, bytes) || end < 2 || raw({end - 2, end}) == "/>") {
+bool Document::add_element(Span whole, std::string_view name, Attributes attributes, Edits& edits) const {
+  const std::string_view bytes = source_.bytes();
+  const std::uint32_t begin = tag_end(whole.begin);
+  const std::string_view opened = raw({whole.begin, begin}).substr(1);
+  const std::string_view full = opened.substr(0, opened.find_first_of(" \t\r\n/>"));
+  const std::size_t close = bytes.find("</" + std::string(full), std::max(begin, whole.end));
+  if (close == std::string_view::npos || raw({begin - 2, begin}) == "/>") {
     return false;
   }
-  // Copies the white space behind the start tag as indent, and the prefix of the parent element.
-  const std::string_view behind = source_.bytes().substr(end);
+  std::string element(full.substr(0, full.size() - local_name(full).size()));  // the prefix of the parent
+  element += name;
+  for (const auto& [attribute, text] : attributes) {
+    std::string value;
+    if (!encoded(text, true, value)) {
+      return false;
+    }
+    element += " " + std::string(attribute) + "=\"" + value + "\"";
+  }
+  const std::string_view behind = bytes.substr(begin);
   const std::string_view indent = behind.substr(0, std::min(behind.find_first_not_of(white), behind.size()));
-  const std::string_view opened = raw({begin, end}).substr(1);
-  const std::string_view full = opened.substr(0, opened.find_first_of(" \t\r\n/>"));
-  const std::string prefix(full.substr(0, full.size() - local_name(full).size()));
-  edits.insert(end, std::string(indent) + "<" + prefix + std::string(name) + " " + std::string(attribute) + "=\"" +
-                        bytes + "\"/>");
+  const std::size_t last = bytes.find_last_not_of(white, close - 1);
+  edits.insert(static_cast<std::uint32_t>(last) + 1, std::string(indent) + "<" + element + "/>");
   return true;
 }
 

@@ -8,9 +8,11 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/value.hpp"
@@ -58,11 +60,12 @@ class Document {
   /// Replaces a text of the source: the value of an attribute, or the content of an element. Text is UTF-8. Returns
   /// false if the encoding of the source lacks a character of it, or if XML cannot represent it.
   bool set_text(Span span, std::string_view text, Edits& edits) const;
-  /// Add an attribute at the end of a start tag, or an element on a new line directly behind a start tag. `at` is any
-  /// offset in the start tag.
+  /// Adds an attribute at the end of a start tag. `at` is any offset in the start tag.
   bool add_attribute(std::uint32_t at, std::string_view name, std::string_view text, Edits& edits) const;
-  bool add_element(std::uint32_t at, std::string_view name, std::string_view attribute, std::string_view text,
-                   Edits& edits) const;
+  using Attributes = std::initializer_list<std::pair<std::string_view, std::string_view>>;
+  /// Adds an element as the last child of another one, indented like its first child. `whole`: that of the parent,
+  /// which must not contain elements of its own name. Returns false if the parent has no end tag, too.
+  bool add_element(Span whole, std::string_view name, Attributes attributes, Edits& edits) const;
 
  private:
   std::uint32_t offset(const char* place) const { return static_cast<std::uint32_t>(place - buffer_.data()); }
