@@ -7,7 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "eds/read.hpp"
+#include "eds/write.hpp"
 #include "generating.hpp"
+#include "reading.hpp"
+#include "xdd/write.hpp"
 #include "xdd_reading.hpp"
 
 using namespace lexican::codict;
@@ -53,6 +57,22 @@ bool restores(const Generated& generated, const char* entry, const char* group) 
 const Names standard_names = {{2, "Save communication parameters"},
                               {3, "Save application parameters"},
                               {4, "Save manufacturer defined parameters"}};
+
+gen::Options small_options() {
+  gen::Options options;
+  options.name = "small";
+  options.source = "small.eds";
+  return options;
+}
+
+// Checks that a device has the dictionary of an EDS.
+void check_equal(const Generated& eds, const Device& device) {
+  Findings findings;
+  const gen::Output output = gen::generate(device, small_options(), findings);
+  REQUIRE(output.files.size() == eds.output.files.size());
+  CHECK(output.files.at(0).bytes == eds.header());
+  CHECK(output.files.at(1).bytes == eds.source());
+}
 
 Names with(Names names, int number, const char* name) {
   names.emplace_back(number, name);
@@ -156,16 +176,40 @@ TEST_CASE("gen: the group of an object is that of its sub-objects, unless these 
 }
 
 TEST_CASE("gen: EDS and XDD of CANopenEditor give the same storage groups") {
-  const Generated eds = generate(test::fixture_text("gen/storage.eds"));
   const test::XmlReading xdd(test::fixture_text("gen/storage.xdd"));
-  gen::Options options;
-  options.name = "small";
-  options.source = "small.eds";
-  Findings findings;
-  const gen::Output output = gen::generate(xdd.device, options, findings);
-  REQUIRE(output.files.size() == 2);
-  CHECK(output.files[0].bytes == eds.header());
-  CHECK(output.files[1].bytes == eds.source());
+  check_equal(generate(test::fixture_text("gen/storage.eds")), xdd.device);
+}
+
+TEST_CASE("gen: a description that is converted from EDS to XDD and back has the same dictionary") {
+  for (const char* const fixture : {"gen/storage.eds", "gen/every_kind.eds", "storage_location.eds"}) {
+    CAPTURE(fixture);
+    const Generated eds = generate(test::fixture_text(fixture));
+    const test::Reading reading(fixture);
+    for (const xdd::Edition edition : {xdd::Edition::v10, xdd::Edition::v11}) {
+      const test::XmlReading xdd(xdd::write(reading.device, edition));
+      check_equal(eds, xdd.device);
+      Findings findings;
+      const eds::Document back(Source("device.eds", eds::write(xdd.device, {})), findings);
+      check_equal(eds, eds::read(back, findings).devices.front());
+    }
+  }
+}
+
+TEST_CASE(
+    "gen: CO_extensionIO=false gives an entry without default value a variable, also beside those of CANopenNode") {
+  const auto generates = [](const std::string& property, const std::string& text) {
+    const std::string group = "<property name=\"CO_storageGroup\" value=\"RAM\"/>";
+    const test::XmlReading xdd(
+        test::xdd_with("<CANopenObject index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"05\" uniqueIDRef=\"P\"/>",
+                       "<parameter uniqueID=\"P\" access=\"readWrite\"><label lang=\"en\">a</label><USINT/>" + group +
+                           property + "</parameter>"));
+    Findings findings;
+    const gen::Output output = gen::generate(xdd.device, small_options(), findings);
+    return !output.files.empty() && output.files[0].bytes.find(text) != std::string::npos;
+  };
+  CHECK(generates("", "extern uint8_t small_2000_0;"));
+  CHECK(generates("<property name=\"CO_extensionIO\" value=\"\"/>", "extern uint8_t small_2000_0;"));
+  CHECK(generates("<property name=\"CO_extensionIO\" value=\"false\"/>", "uint8_t od_2000_0;"));
 }
 
 TEST_CASE("gen: RAM, ROM and constants are not storage groups") {

@@ -122,7 +122,9 @@ Details properties_of(const Entry& entry) {
     append(names, Details(property.value.is_empty() ? 0 : 1, property.name));
   }
   for (const auto& [text, name] : known) {
-    append(names, Details(text.is_empty() ? 0 : 1, name));
+    // An entry of an EDS has a variable without CO_extensionIO=false.
+    const bool is_default = &text == &*node.extension_io && !node.extension_io->value;
+    append(names, Details(text.is_empty() || is_default ? 0 : 1, name));
   }
   return names;
 }

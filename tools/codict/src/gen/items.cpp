@@ -411,14 +411,16 @@ class Items {
     return item.form->code == type_code::visible_string && !is_writable(item.access);
   }
 
-  // In descriptions of CANopenNode an empty default value means that the application provides the memory. Domains
-  // without value are external in all descriptions.
+  // In descriptions of CANopenNode an empty default value means that the application provides the memory, unless
+  // CO_extensionIO is false. Domains without value are external in all descriptions.
   bool is_external(const Item& item, const Entry& entry) const {
     const bool is_empty = item.value.kind == Value::Kind::none;
     const bool has_length = entry.node->byte_length->value != 0 || entry.node->string_length_min->value != 0;
     const bool is_xml = device_.format != Format::eds && device_.format != Format::dcf;
     const bool is_domain = item.form->code == type_code::domain;
-    return is_empty && !has_length && (is_domain || (is_xml && is_of_node_));
+    const Field<bool>& extension = entry.node->extension_io;
+    const bool has_variable = !extension.is_empty() && !extension.value;
+    return is_empty && !has_length && (is_domain || (is_xml && is_of_node_ && !has_variable));
   }
 
   void set_variable(Item& item, bool has_subs) {

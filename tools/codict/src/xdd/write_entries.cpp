@@ -107,6 +107,9 @@ EntryWriter::EntryWriter(Printer& out, const Device& device)
   for (const TypeDefinition& definition : device.types) {
     types_.insert(definition.id.text);
   }
+  for_each_variable(device, [this](std::uint16_t, std::uint8_t, const Entry& entry) {
+    has_groups_ = has_groups_ || (is_eds_ && entry.node->storage_group.is_given);
+  });
 }
 
 bool EntryWriter::has_parameter(const Entry& entry, bool is_variable) const {
@@ -233,7 +236,7 @@ void EntryWriter::property(std::string_view name, std::string_view text) {
   out_.close();
 }
 
-void EntryWriter::properties(const Entry& entry) {
+void EntryWriter::properties(const Entry& entry, bool is_variable) {
   const NodeProperties& node = entry.node;
   const auto known = [this](std::string_view name, const Text& text) {
     if (text.is_given) {
@@ -243,7 +246,11 @@ void EntryWriter::properties(const Entry& entry) {
   known("CO_disabled", node.disabled);
   known("CO_countLabel", node.count_label);
   known("CO_storageGroup", node.storage_group);
-  known("CO_extensionIO", node.extension_io);
+  if (is_variable && has_groups_ && value_in_force(entry).kind == Value::Kind::none) {
+    property("CO_extensionIO", "false");  // otherwise an empty default value is memory of the application
+  } else {
+    known("CO_extensionIO", node.extension_io);
+  }
   if (node.flags_pdo->is_given) {
     property("CO_flagsPDO", is_eds_ ? (node.flags_pdo->value ? "true" : "false") : node.flags_pdo->text);
   }
@@ -321,7 +328,7 @@ void EntryWriter::parameter(const Entry& entry, const std::string& id, bool is_v
   value("substituteValue", entry.substitute_value, opaque);
   allowed(entry, opaque);
   unit(entry.unit, opaque);
-  properties(entry);
+  properties(entry, is_variable);
   out_.elements_of(opaque);
   out_.close();
 }

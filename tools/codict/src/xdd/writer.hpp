@@ -52,7 +52,7 @@ class EntryWriter {
   void range(const Range& range, OpaqueParts& opaque);
   void unit(const Unit& unit, OpaqueParts& opaque);
   void denotation(const Entry& entry, OpaqueParts& opaque);
-  void properties(const Entry& entry);
+  void properties(const Entry& entry, bool is_variable);
   void property(std::string_view name, std::string_view text);
   void object(const Object& object);
   void entry_attributes(const Entry& entry, const std::string& id, bool is_variable);
@@ -63,6 +63,7 @@ class EntryWriter {
 
   Printer& out_;
   const Device& device_;
+  bool has_groups_ = false;  ///< an EDS with storage groups: its XDD looks like one of CANopenNode
   bool is_eds_;
   std::set<std::string> written_;
   std::set<std::string, std::less<>> types_;
