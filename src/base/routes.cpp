@@ -5,6 +5,8 @@
 #include "hal/port.hpp"
 #include "wire/cob_id.hpp"
 
+#if CO_ROUTES_SORTED
+
 namespace co::routes {
 namespace {
 
@@ -120,3 +122,57 @@ void publish(const CO_NODE& node) {
 }
 
 }  // namespace co::routes
+
+#else
+
+namespace co::routes {
+namespace {
+
+struct Places {
+  uint16_t first[static_cast<unsigned>(Service::count) + 1];
+};
+constexpr Places count_places() {
+  Places places = {};
+  for (unsigned n = 0; n < static_cast<unsigned>(Service::count); ++n) {
+    places.first[n + 1] = static_cast<uint16_t>(places.first[n] + places_of(static_cast<Service>(n)));
+  }
+  return places;
+}
+constexpr Places places = count_places();
+static_assert(places.first[static_cast<unsigned>(Service::count)] <= CO_ROUTE_PLACES);
+
+}  // namespace
+
+void clear(CO_NODE& node) {
+  for (uint32_t& id : node.Routes.Id) {
+    id = wire::no_frame;
+  }
+}
+
+void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
+  CO_ASSERT(service < Service::count && number < places_of(service));
+  node.Routes.Id[places.first[static_cast<unsigned>(service)] + number] = identifier;
+}
+
+// Sorts the identifiers on the CPU's stack.
+void publish(const CO_NODE& node) {
+  if (!port::can_wants_filter(node)) {
+    return;
+  }
+  uint32_t sorted[CO_ROUTE_PLACES];
+  uint16_t num = 0;
+  for (const uint32_t identifier : node.Routes.Id) {
+    if (identifier != wire::no_frame) {
+      uint16_t n = num++;
+      for (; n > 0 && sorted[n - 1] > identifier; --n) {
+        sorted[n] = sorted[n - 1];
+      }
+      sorted[n] = identifier;
+    }
+  }
+  port::can_filter(node, sorted, num);
+}
+
+}  // namespace co::routes
+
+#endif

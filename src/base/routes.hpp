@@ -52,8 +52,38 @@ enum class Service : uint8_t {
   count
 };
 
+// Returns the number of instances of a service that receive frames; their numbers are lower.
+constexpr unsigned places_of(Service service) {
+  switch (service) {
+    case Service::sdo_server: return CO_SSDO_N;
+#if USE_CSDO
+    case Service::sdo_client: return CO_CSDO_N;
+#endif
+#if CO_HBCONS_N > 0
+    case Service::heartbeat_consumer: return CO_HBCONS_N + 1;  // sub-indices
+#endif
+#if USE_MPDO
+    case Service::mpdo: return CO_RPDO_N;
+#endif
+#if CO_RPDO_N > 0
+    case Service::rpdo: return CO_RPDO_N;
+#endif
+#if CO_TPDO_N > 0
+    case Service::tpdo: return USE_PDO_RTR != 0 ? CO_TPDO_N : 0;
+#endif
+#if CO_SRDO_N > 0
+    case Service::srdo: return 2 * CO_SRDO_N;
+#endif
+#if CO_EMCY_CONS_N > 0
+    case Service::emcy_consumer: return CO_EMCY_CONS_N + 1;  // node-IDs
+#endif
+    default: return 1;
+  }
+}
+
 void clear(CO_NODE& node);
 
+#if CO_ROUTES_SORTED
 // Adds a route. identifier: as in a frame (CO_IF_FRM_EXT included). Routes of the same identifier are adjacent, in the
 // order of their owners.
 void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
@@ -64,9 +94,18 @@ void remove(CO_NODE& node, Service service, uint16_t number);
 // Replaces the route of an instance of a service. identifier: wire::no_frame to remove it only.
 void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
 
+#else
+// Sets the identifier of an instance (number) of a service. identifier: wire::no_frame for none
+void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
+inline void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
+  change(node, identifier, service, number);
+}
+#endif
+
 // Passes the identifiers of all routes to the CAN driver, if it has a Filter function.
 void publish(const CO_NODE& node);
 
+#if CO_ROUTES_SORTED
 // Returns the function code of an identifier; all 29-bit identifiers have the class 16. Returns 0 where the routes are
 // not divided by function code (CO_ROUTE_CLASS_N 1).
 [[nodiscard]] constexpr uint8_t class_of(uint32_t identifier) {
@@ -115,5 +154,7 @@ inline constexpr uint32_t no_identifier = ~0U;
 
 [[nodiscard]] constexpr uint8_t service_of(uint16_t owner) { return static_cast<uint8_t>(owner >> 12); }
 [[nodiscard]] constexpr uint16_t number_of(uint16_t owner) { return owner & 0x0FFFU; }
+
+#endif
 
 }  // namespace co::routes

@@ -379,13 +379,14 @@ Missing missing_call(CO_NODE& node) {
   const CO_TMR& t = node.Tmr;
   const Lock lock(t);
   const CO_TMR_MEM* const first = t.First;
+  const bool is_due = t.Armed != &t.First;  // has_due() would no longer be inlined elsewhere
   const uint32_t late = first == nullptr ? 0 : port::now(node) - first->At;
   // The clock of a classic driver does not advance beyond an alarm that was not served.
-  const bool is_stuck = node.If.HasElapsed != nullptr && late == 0 && first != nullptr && !has_due(t);
+  const bool is_stuck = node.If.HasElapsed != nullptr && late == 0 && first != nullptr && !is_due;
   if (late > INT32_MAX || (late <= t.Freq / 8 && !is_stuck)) {
     return Missing::nothing;
   }
-  return has_due(t) ? Missing::process : Missing::service;
+  return is_due ? Missing::process : Missing::service;
 }
 
 uint32_t next_deadline(CO_NODE& node) {

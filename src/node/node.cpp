@@ -312,8 +312,13 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
     }
     frame.Identifier = wire::normalised(frame.Identifier);
   }
+#if CO_ROUTES_SORTED
   const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
-  if (place != routes::nowhere && services::dispatch(node, frame, place)) {
+  const bool is_claimed = place != routes::nowhere && services::dispatch(node, frame, place);
+#else
+  const bool is_claimed = services::dispatch(node, frame);
+#endif
+  if (is_claimed) {
     return;
   }
   count(node.Count.Unclaimed);

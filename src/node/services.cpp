@@ -150,6 +150,7 @@ template <auto column, size_t row = 0>
 // Functions of the services that receive frames, indexed by routes::Service.
 struct Receiver {
   uint8_t allowed;
+  uint16_t places;
   bool (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
   bool (*on_remote)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 };
@@ -159,7 +160,8 @@ struct Receivers {
 constexpr Receivers receivers_of_table() {
   Receivers receivers = {};
   for (size_t n = 0; n < static_cast<size_t>(Id::count); ++n) {
-    receivers.row[n] = {table[n].allowed, table[n].on_frame, table[n].on_remote};
+    receivers.row[n] = {table[n].allowed, static_cast<uint16_t>(routes::places_of(table[n].id)), table[n].on_frame,
+                        table[n].on_remote};
   }
   return receivers;
 }
@@ -269,6 +271,7 @@ bool is_real_time(const CO_NODE& node, unsigned place) {
 }
 #endif
 
+#if CO_ROUTES_SORTED
 namespace {
 
 // Calls the services in the order of the routes, which each service may change.
@@ -314,6 +317,28 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
   }
   return true;
 }
+#else
+// Calls each service that consumes the identifier.
+bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
+  const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
+  const uint32_t* route = node.Routes.Id;
+  bool claimed = false;
+  bool served = false;
+  for (const Receiver& service : receivers.row) {
+    for (uint16_t number = 0; number != service.places; ++number) {
+      if (*route++ == id && event::is_allowed(node, service.allowed)) {
+        const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? service.on_remote : service.on_frame;
+        claimed = true;
+        served |= serve(node, frame, number);
+      }
+    }
+  }
+  if (claimed && !served) {
+    count(node.Count.Malformed);
+  }
+  return claimed;
+}
+#endif
 
 }  // namespace services
 

@@ -71,7 +71,11 @@ inline void forget_application(CO_NODE&) {}
 
 // Passes a frame to the services whose routes begin at this position. Returns false if the NMT state permits none of
 // them.
+#if CO_ROUTES_SORTED
 [[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place);
+#else
+[[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame);
+#endif
 
 // Reads the COB-IDs of SDO servers and clients from the dictionary again.
 void configure(CO_NODE& node);

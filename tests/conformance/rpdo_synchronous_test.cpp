@@ -58,7 +58,7 @@ TEST_CASE("synchronous RPDO: the last of several frames before the SYNC is writt
   CHECK(updates == 1);
 }
 
-TEST_CASE("synchronous RPDO: all frames of one SYNC are written in the order of their reception") {
+TEST_CASE("synchronous RPDO: all frames of one SYNC are written in the order of their numbers") {
   SyncTable table;
   for (unsigned n = 0; n < fixture_rpdos; ++n) {
     table.rpdo[n].on(0x201 + n * 0x100, 1, {0x22010108, 0x22020010U | (n + 1) << 8});
@@ -73,11 +73,11 @@ TEST_CASE("synchronous RPDO: all frames of one SYNC are written in the order of 
     std::vector<CO_RPDO*> order;
     callbacks().pdo_update = [&](CO_RPDO* pdo) { order.push_back(pdo); };
     node.rx("080#");
-    CHECK(node.u8[0] == 0x10 * round);  // RPDO 0 was received last
+    CHECK(node.u8[0] == 0x10 * round + fixture_rpdos - 1);  // RPDO 0 was received last
     REQUIRE(order.size() == fixture_rpdos);
     for (unsigned n = 0; n < fixture_rpdos; ++n) {
       CHECK(node.u16[n] == 0x7700 + 0x10 * round + n);
-      CHECK(order[n] == &node->RPdo[fixture_rpdos - 1 - n]);
+      CHECK(order[n] == &node->RPdo[n]);
     }
   }
 }

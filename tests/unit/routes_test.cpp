@@ -5,6 +5,8 @@
 
 #include "support/fixture.hpp"
 
+#if CO_ROUTES_SORTED
+
 namespace {
 
 using namespace test;
@@ -127,3 +129,5 @@ TEST_CASE("routes: a driver with a filter gets the identifiers before it is enab
 }
 
 }  // namespace
+
+#endif

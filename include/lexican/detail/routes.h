@@ -22,6 +22,11 @@ typedef uint8_t CO_ROUTE_NUM;
 
 #define CO_ROUTE_CLASS_N (USE_FAST_PATHS ? 17 : 1)
 
+// With USE_FAST_PATHS 0 each service instance that can receive frames has a fixed place, and frames are compared with all
+// of them.
+#define CO_ROUTES_SORTED (USE_FAST_PATHS || USE_REAL_TIME)
+
+#if CO_ROUTES_SORTED
 typedef struct CO_ROUTES_T {  ///< routing table: the service instances that consume each identifier
   /// Index of the first route of each function code (CAN-ID >> 7) and of the 29-bit identifiers, then the end. With
   /// USE_FAST_PATHS 0 one class holds all routes.
@@ -29,6 +34,13 @@ typedef struct CO_ROUTES_T {  ///< routing table: the service instances that con
   uint32_t Id[CO_ROUTE_N + 1];  ///< identifiers with flags, ascending, then an end mark that is no identifier
   uint16_t Owner[CO_ROUTE_N];   ///< service in bits 15…12, number of its instance in bits 11…0
 } CO_ROUTES;
+#else
+// Consumers of heartbeats and EMCY are numbered from 1.
+#define CO_ROUTE_PLACES (CO_ROUTE_N + 2 + (USE_MPDO ? CO_RPDO_N : 0))
+typedef struct CO_ROUTES_T {  ///< identifier that each service instance consumes, with flags
+  uint32_t Id[CO_ROUTE_PLACES];
+} CO_ROUTES;
+#endif
 
 typedef struct CO_TX_QUEUE_T {  ///< transmit queue, ordered by priority
   CO_IF_FRM* Frame;
