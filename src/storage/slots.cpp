@@ -16,9 +16,8 @@ using store::Found;
 using store::Loaded;
 using store::Record;
 
-constexpr uint32_t magic = 0x324E584C;      // "LXN2"
-constexpr uint32_t old_magic = 0x314E584C;  // "LXN1": version 0.1.0, whose CRC does not cover the identity
-constexpr uint32_t defaults = UINT32_MAX;   // Header.size: the defaults are to be used, there are no data
+constexpr uint32_t magic = 0x324E584C;     // "LXN2"
+constexpr uint32_t defaults = UINT32_MAX;  // Header.size: the defaults are to be used, there are no data
 constexpr uint8_t erased = 0xFF;
 
 struct Header {
@@ -63,9 +62,7 @@ uint32_t slot_size(const CO_NODE& node, uint32_t size) {
 wire::Crc32 crc_of(const Header& header, const Record& record) {
   wire::Crc32 crc;
   crc.add(reinterpret_cast<const uint8_t*>(&header), offsetof(Header, crc));
-  if (header.magic == magic) {
-    crc.add(reinterpret_cast<const uint8_t*>(&record), sizeof record);
-  }
+  crc.add(reinterpret_cast<const uint8_t*>(&record), sizeof record);
   return crc;
 }
 
@@ -150,8 +147,7 @@ Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Heade
     return Found::blank;
   }
   const bool is_default = header.size == defaults;
-  const bool is_known = header.magic == magic || header.magic == old_magic;
-  if (!is_known || header.version != record.version || (!is_default && header.size != record.size)) {
+  if (header.magic != magic || header.version != record.version || (!is_default && header.size != record.size)) {
     return Found::lost;
   }
   wire::Crc32 crc = crc_of(header, record);
@@ -163,9 +159,6 @@ Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Heade
 
 // Returns whether the slot holds a valid record.
 bool is_whole(const Slot& slot) { return slot.found == Found::data || slot.found == Found::defaults; }
-
-// Returns whether the slot was written by version 0.1.0.
-bool is_old(const Slot& slot) { return is_whole(slot) && slot.header.magic == old_magic; }
 
 // Returns whether the slot holds a valid record that is newer than that of the other slot. Generations may wrap around.
 bool is_newer(const Slot& slot, const Slot& other) {
@@ -261,9 +254,6 @@ bool is_equal(const CO_NODE& node, uint32_t start, const uint8_t* data, uint32_t
 }
 
 bool is_stored(const CO_NODE& node, const Record& record, const Slot& slot, const uint8_t* data) {
-  if (is_old(slot)) {
-    return false;
-  }
   if (data == nullptr) {
     return slot.found == Found::defaults;
   }
@@ -337,17 +327,6 @@ CO_ERR write_record(CO_NODE& node, const Record& record, const Slots& slots, con
   return CO_ERR_NONE;
 }
 
-// Rewrites a record of version 0.1.0 in both slots: its CRC does not cover the identity, so that it could be mistaken
-// for the record of another group. Power may fail meanwhile: one slot with the values always exists, and the next load
-// continues.
-void rewrite_old_record(CO_NODE& node, const Record& record, Slots& slots, const uint8_t* data) {
-  constexpr unsigned both = 2;
-  for (unsigned n = 0; n < both && (is_old(slots.newest) || is_old(slots.other)); ++n) {
-    (void)write_record(node, record, slots, data);
-    slots = Slots(node, record);
-  }
-}
-
 }  // namespace
 
 bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
@@ -387,14 +366,10 @@ Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
   if (!fits(node, record)) {
     return {Found::no_place, false};
   }
-  Slots slots(node, record);
+  const Slots slots(node, record);
   remember(node, record, slots.newest);
   if (load_slot(node, record, slots.newest, to, size)) {
-    const Loaded loaded = {slots.newest.found, is_newest_damaged(slots)};
-    if (size == record.size) {
-      rewrite_old_record(node, record, slots, loaded.found == Found::data ? to : nullptr);
-    }
-    return loaded;
+    return {slots.newest.found, is_newest_damaged(slots)};
   }
   if (load_slot(node, record, slots.other, to, size)) {
     remember(node, record, slots.other);

@@ -40,7 +40,7 @@ struct Loaded {
 
 // Copies the first size bytes of the stored data, if there are any, to the memory of the application. The CRC of an
 // atomic record is checked before; invalid data are copied only if the memory returns other bytes when it is read
-// again. Records in the format of version 0.1.0 are rewritten.
+// again.
 [[nodiscard]] Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size);
 
 // Stores data, unless they are stored already. Returns CO_ERR_PARA_STORE if the record does not fit into the memory,

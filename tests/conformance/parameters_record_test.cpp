@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assignment of stored records to parameter groups: exchanged and overlapping groups, records of version 0.1.0, damaged
+// Assignment of stored records to parameter groups: exchanged and overlapping groups, damaged
 // records. (docs/storage.md)
 #include <algorithm>
 #include <utility>
@@ -179,120 +179,6 @@ TEST_CASE("parameters: groups whose variables overlap are accepted, each with it
   CHECK(node.error() == CO_ERR_NONE);
   node.ask(save_all, all_saved);
 }
-
-// Records of version 0.1.0 ----------------------------------------------------------------------------------------
-
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-
-// Records of "save": "LXN1", version 0, 8 bytes, generation 0 and 1, CRC, data with the numbers 2Ah and 2Bh.
-constexpr std::array<std::uint8_t, 28> old_record = {0x4C, 0x58, 0x4E, 0x31, 0x00, 0x00, 0x00, 0x00, 0x08, 0x00,
-                                                     0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x12, 0x44, 0xB8, 0x63,
-                                                     0x2A, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};
-constexpr std::array<std::uint8_t, 28> newer_old_record = {0x4C, 0x58, 0x4E, 0x31, 0x00, 0x00, 0x00, 0x00, 0x08, 0x00,
-                                                           0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0xE3, 0x08, 0xB7, 0x34,
-                                                           0x2B, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};
-// Record of "load", generation 1.
-constexpr std::array<std::uint8_t, 20> old_defaults = {0x4C, 0x58, 0x4E, 0x31, 0x00, 0x00, 0x00, 0x00, 0xFF, 0xFF,
-                                                       0xFF, 0xFF, 0x01, 0x00, 0x00, 0x00, 0xFA, 0x97, 0x5B, 0x56};
-constexpr std::uint32_t slot = 28;
-
-unsigned old_records(const GroupDevice& device) {
-  constexpr std::array<std::uint8_t, 4> magic = {'L', 'X', 'N', '1'};
-  unsigned num = 0;
-  for (auto at = device.nvm.bytes.begin();; ++num, ++at) {
-    at = std::search(at, device.nvm.bytes.end(), magic.begin(), magic.end());
-    if (at == device.nvm.bytes.end()) return num;
-  }
-}
-
-TEST_CASE("parameters: a record of version 0.1.0 is loaded and rewritten so that it contains its group") {
-  GroupDevice device;
-  const char* value = "581#430023022A000000";
-  SUBCASE("stored once") { device.put(100, old_record); }
-  SUBCASE("stored once, in the other slot") { device.put(100 + slot, old_record); }
-  SUBCASE("stored twice") {
-    device.put(100, old_record);
-    device.put(100 + slot, newer_old_record);
-    value = "581#430023022B000000";
-  }
-  SUBCASE("defaults requested") {
-    device.put(100, old_record);
-    device.put(100 + slot, old_defaults);
-    value = "581#4300230214000000";
-  }
-  {
-    Fixture node(device.setup());
-    CHECK(node.error() == CO_ERR_NONE);
-    node.ask("601#4000230200000000", value);
-    CHECK(old_records(device) == 0);
-    const auto steps = device.nvm.steps;
-    CHECK(steps <= 2 * slot);
-    node.rx("000#8101");
-    node.tx("701#00");
-    node.ask("601#4000230200000000", value);
-    CHECK(device.nvm.steps == steps);
-  }
-  {
-    Fixture node(device.setup());
-    CHECK(node.error() == CO_ERR_NONE);
-    node.ask("601#4000230200000000", value);
-  }
-  std::swap(device.first.Offset, device.second.Offset);
-  Fixture node(device.setup());
-  CHECK(node.error() == CO_ERR_PARA_LOAD);
-  node.ask("601#4000230100000000", "581#430023010A000000");
-}
-
-TEST_CASE("parameters: a record of version 0.1.0 of another size, layout version or checksum is not loaded") {
-  GroupDevice device;
-  device.put(100, old_record);
-  SUBCASE("size") { device.second.Size = 4; }
-  SUBCASE("version") { device.second.Value |= CO_PARA_VERSION(1); }
-  SUBCASE("checksum") { device.nvm.bytes[116] ^= 1; }
-  SUBCASE("data") { device.nvm.bytes[120] ^= 1; }
-  SUBCASE("another magic word") { device.nvm.bytes[103] = '3'; }
-  Fixture node(device.setup());
-  CHECK(node.error() == CO_ERR_PARA_LOAD);
-  node.ask("601#4000230200000000", "581#4300230214000000");
-}
-
-TEST_CASE("parameters: a memory that fails while a record of version 0.1.0 is rewritten loses no value") {
-  for (std::uint64_t step = 1; step <= 2 * slot; ++step) {
-    GroupDevice device;
-    device.put(100, old_record);
-    device.nvm.ignore_from = step;
-    device.nvm.ignore_to = step + 1000;
-    for (int n = 0; n < 2; ++n) {
-      Fixture node(device.setup());
-      CHECK(node.error() == CO_ERR_NONE);
-      node.ask("601#4000230200000000", "581#430023022A000000");
-      device.nvm.ignore_to = 0;
-    }
-    CHECK(old_records(device) == 0);
-  }
-}
-
-#if USE_LSS
-
-TEST_CASE("LSS: node-ID and bit rate stored by version 0.1.0 are loaded and rewritten") {
-  constexpr std::array<std::uint8_t, 28> record = {0x4C, 0x58, 0x4E, 0x31, 0x31, 0x53, 0x53, 0x4C, 0x08, 0x00,
-                                                   0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xF8, 0x62, 0xB0, 0xEA,
-                                                   0x90, 0xD0, 0x03, 0x00, 0x05, 0x00, 0x00, 0x00};
-  GroupDevice device;
-  device.put(400, record);
-  Fixture node(device.setup());
-  for (int n = 0; n < 2; ++n) {
-    std::uint32_t baud = 0;
-    std::uint8_t id = 0;
-    node.call([&] { CHECK(COLssNvmLoad(&node.node, 400, &baud, &id) == CO_ERR_NONE); });
-    CHECK(baud == 250000);
-    CHECK(id == 5);
-    CHECK(old_records(device) == 0);
-  }
-}
-
-#endif
-#endif
 
 // Damaged records -------------------------------------------------------------------------------------------------
 

@@ -5,7 +5,6 @@
 
 #include "support/failing_nvm.hpp"
 #include "support/fixture.hpp"
-#include "wire/crc32.hpp"
 
 #if USE_PARA
 
@@ -197,129 +196,6 @@ TEST_CASE("parameters: after power failures in two consecutive stores a group ha
   }
   MESSAGE("pairs of cut points: ", pairs);
   CHECK(pairs > 50000);
-}
-
-// Returns the address of one of the two slots of the group.
-std::uint32_t slot_start(const CO_NVM_SHAPE& shape, unsigned slot) {
-  const std::uint32_t unit = shape.EraseSize != 0 ? shape.EraseSize : shape.ProgramSize;
-  return slot * CO_PARA_SPACE(sizeof(Values), unit, shape.ProgramSize) / 2;
-}
-
-// Header of a record in the format of version 0.1.0.
-struct HeaderV010 {
-  std::uint32_t magic;
-  std::uint32_t version;
-  std::uint32_t size;  // FFFFFFFFh for "load"
-  std::uint32_t generation;
-  std::uint32_t crc;
-};
-constexpr std::uint32_t magic_v010 = 0x314E584C;
-constexpr std::uint32_t no_data = 0xFFFFFFFF;
-
-std::uint32_t crc_of(const HeaderV010& header, const std::uint8_t* data) {
-  co::wire::Crc32 crc;
-  crc.add(reinterpret_cast<const std::uint8_t*>(&header), offsetof(HeaderV010, crc));
-  if (header.size != no_data) {
-    crc.add(data, sizeof(Values));
-  }
-  return crc.value();
-}
-
-// Writes a record in the format of version 0.1.0. values: null for the record that "load" writes.
-void write_record_v010(Device& device, unsigned slot, std::uint32_t generation, const Values* values) {
-  std::uint8_t* const start = &device.nvm.bytes[slot_start(device.nvm.shape, slot)];
-  std::uint8_t* const data = start + CO_PARA_ROUND_UP(20, device.nvm.shape.ProgramSize);
-  if (values != nullptr) {
-    std::memcpy(data, values, sizeof *values);
-  }
-  HeaderV010 header = {magic_v010, 0, values != nullptr ? std::uint32_t{sizeof *values} : no_data, generation, 0};
-  header.crc = crc_of(header, data);
-  std::memcpy(start, &header, sizeof header);
-}
-
-bool has_record_v010(const Device& device) {
-  for (const unsigned slot : {0U, 1U}) {
-    const std::uint8_t* const start = &device.nvm.bytes[slot_start(device.nvm.shape, slot)];
-    HeaderV010 header;
-    std::memcpy(&header, start, sizeof header);
-    if (header.magic == magic_v010 &&
-        header.crc == crc_of(header, start + CO_PARA_ROUND_UP(20, device.nvm.shape.ProgramSize))) {
-      return true;
-    }
-  }
-  return false;
-}
-
-// Records of version 0.1.0 in the two slots. older and newer: values; null for the record that "load" writes.
-struct RecordsV010 {
-  const Values* older;
-  bool has_newer;
-  const Values* newer;
-  [[nodiscard]] const Values& last() const {
-    const Values* const values = has_newer ? newer : older;
-    return values != nullptr ? *values : defaults;
-  }
-};
-constexpr RecordsV010 all_records_v010[] = {
-    {&first, false, nullptr}, {nullptr, false, nullptr}, {&first, true, &second}, {&first, true, nullptr}};
-
-// Cuts the power at each step of a power-on that rewrites records of version 0.1.0. Checks that the group has these
-// values, and calls then(device). Returns the number of steps.
-template <class Function>
-std::uint64_t cut_during_power_on(const Device& before, const Values& values, PartialWrite partial_write,
-                                  Function then) {
-  std::uint64_t cuts = 0;
-  for (std::uint64_t step = 1;; ++step, ++cuts) {
-    Device device = before;
-    const Values found = device.boot(step, partial_write);
-    REQUIRE(found == values);
-    REQUIRE(device.error == CO_ERR_NONE);
-    REQUIRE_FALSE(device.nvm.misused);
-    if (!device.nvm.is_off) {
-      REQUIRE_FALSE(has_record_v010(device));
-      return cuts;
-    }
-    then(device);
-  }
-}
-
-TEST_CASE("parameters: power failures while records of version 0.1.0 are rewritten do not change the values [T13]") {
-  std::uint64_t cuts = 0;
-  for (const CO_NVM_SHAPE& shape : shapes) {
-    for (const RecordsV010& records : all_records_v010) {
-      Device before(shape);
-      write_record_v010(before, 0, 7, records.older);
-      if (records.has_newer) {
-        write_record_v010(before, 1, 8, records.newer);
-      }
-      for (const PartialWrite partial_write : all_partial_writes) {
-        cuts += cut_during_power_on(before, records.last(), partial_write, [&](const Device& device) {
-          if (shape.EraseSize != 0) {
-            return;  // pairs of power failures take too long with flash
-          }
-          cuts += cut_during_power_on(device, records.last(), partial_write, [&](Device& again) {
-            REQUIRE(again.boot() == records.last());
-            REQUIRE_FALSE(has_record_v010(again));
-          });
-        });
-      }
-    }
-  }
-  MESSAGE("cut points: ", cuts);
-  CHECK(cuts > 5000);
-}
-
-TEST_CASE("parameters: stores are atomic after a power failure while records of version 0.1.0 are rewritten [T13]") {
-  for (const CO_NVM_SHAPE& shape : {eeprom, small_flash}) {
-    Device before(shape);
-    write_record_v010(before, 0, 7, &first);
-    write_record_v010(before, 1, 8, &second);
-    cut_during_power_on(before, second, PartialWrite::half, [](const Device& device) {
-      Device next = device;
-      REQUIRE(next.boot() == second);
-      cut_at_each_step(next, second, store_third, PartialWrite::garbage, [](Device&, const Values&) {});
-    });
-  }
 }
 
 TEST_CASE("parameters: after a power failure at any byte of a store the two next stores succeed [T13]") {

@@ -4,7 +4,6 @@
 /// non-volatile memory, which outlives each of its nodes.
 #pragma once
 
-#include <array>
 #include <string>
 
 #include "failing_nvm.hpp"
@@ -36,12 +35,6 @@ struct GroupDevice {
     setup.with({CO_KEY(0x2300, 1, CO_OBJ_____RW), CO_TUNSIGNED32, data(&ram[0].number)});
     setup.with({CO_KEY(0x2300, 2, CO_OBJ_____RW), CO_TUNSIGNED32, data(&ram[1].number)});
     return setup;
-  }
-
-  /// Writes bytes into the non-volatile memory, as the content before the start of a node.
-  template <std::size_t size>
-  void put(std::uint32_t start, const std::array<std::uint8_t, size>& bytes) {
-    std::copy(bytes.begin(), bytes.end(), nvm.bytes.begin() + static_cast<std::ptrdiff_t>(start));
   }
 
   FailingNvm nvm{{1024, 1, 0}};
