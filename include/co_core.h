@@ -259,7 +259,8 @@ void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) CO_CONFIGURED("CONodeIn
 void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) CO_CONFIGURED("CONodeInitEx");
 
 /// Like CONodeInitEx(), for programs whose drivers all have a context argument (CO_NODE_EXT.Can, Timer and Nvm):
-/// CO_NODE_SPEC.Drv is not used, and the program does not contain the adapters for classic drivers (about 530 bytes).
+/// CO_NODE_SPEC.Drv is not used, and the program does not contain the adapters for classic drivers (about 530 bytes). A
+/// memory driver needs its Shape function: without, no parameter group is stored.
 void CONodeInitCtx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) CO_CONFIGURED("CONodeInitCtx");
 
 /// Sends the boot-up message and enters Pre-operational, if the node is in CO_INIT; otherwise has no effect.

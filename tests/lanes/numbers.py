@@ -103,7 +103,7 @@ class Report:
         with_remarks = any(row.remark for row in rows)
         heads = [self.arguments.title]
         for column, has_budgets, has_stacks in zip(self.columns, with_budgets, with_stacks):
-            heads += [column.title] + ["budget"] * has_budgets + self.stacks.names * has_stacks
+            heads += [column.title] + [self.arguments.limits or "budget"] * has_budgets + self.stacks.names * has_stacks
         marks = ["---"] + ["---:"] * (len(heads) - 1)
         if with_remarks:
             heads.append(self.arguments.remark)
@@ -167,6 +167,8 @@ class Report:
                 what = f"{name}, {column.title}"
                 if is_comparable:
                     yield self.verdict(what, before, now)
+                    if self.arguments.limits and now and row and row.budgets[number]:
+                        yield self.within_limit(what, row.budgets[number], now)
                 else:
                     yield True, f"{what} # SKIP what is committed is not of {column.compiler}"
         page = self.arguments.page.read_text(encoding="utf-8")
@@ -178,6 +180,10 @@ class Report:
         columns = [column.title for column in self.columns]
         for name, column in self.stacks.numbers:
             yield name in self.committed.rows and column in columns, f"{name}, {column}: measured here as in other stacks"
+
+    @staticmethod
+    def within_limit(what, limit, now):
+        return float(now) <= float(limit), f"{what}: {now}, at most {limit}: free as many bytes elsewhere"
 
     def verdict(self, what, before, now):
         if not now:
@@ -206,6 +212,7 @@ def main():
     parser.add_argument("--percent", type=float, default=0, help="how much a number may grow …")
     parser.add_argument("--slack", type=float, default=0, help="… if that is more than this")
     parser.add_argument("--column", nargs="+", action="append", required=True, help="title, compiler, measured files")
+    parser.add_argument("--limits", default="", help="title of the budgets, which then bind: no number may exceed its own")
     parser.add_argument("--update", action="store_true", help="write numbers and table first")
     report = Report(parser.parse_args())
     if report.arguments.update:

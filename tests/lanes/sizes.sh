@@ -5,7 +5,7 @@ minutes=2
 packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}" gcc-riscv64-unknown-elf=riscv64-unknown-elf-g++
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/lib/libc.a)
 
-presets=(minimal slave full)
+presets=(minimal fair slave full)
 of=$results/sizes
 
 lane() {
@@ -48,7 +48,14 @@ compile_c() {  # SOURCE OUTPUT FLAG...
   "${compile[@]}" -Wall -Werror -std=c11 -I "$root/include" -I "$root/config" -c "$root/tests/sizes/$1" -o "$2" "${@:3}"
 }
 
-preset_flag() { echo "-DCO_CFG_PRESET=\"presets/$1.h\""; }  # PRESET
+preset_flag() {  # PRESET
+  case $1 in
+    fair) echo "-DCO_CFG_PRESET=\"$root/tests/sizes/fair.h\"" ;;
+    *) echo "-DCO_CFG_PRESET=\"presets/$1.h\"" ;;
+  esac
+}
+
+title_of() { if [ "$1" = fair ]; then echo "slave with the features of the others"; else echo "$1"; fi; }  # PRESET
 
 size_of_node() {  # CPU PRESET
   local program=$build/sizes-$1/node-$2 smallest=0 everything=
@@ -59,8 +66,8 @@ size_of_node() {  # CPU PRESET
     link_node "sizes-$1/lexican_$2" "$program" "$everything" -flto=2 -o "$program-lto" ||
     { fail "link of $2 for $1" "$of.log"; return 1; }
   python3 "$root/tests/sizes/modules.py" "$program.map" >"$of-$1-$2-modules" || return
-  size_lines "$2" "$program" "$(awk '/^all modules/ { print $NF }' "$of-$1-$2-modules")" >>"$of-$1"
-  size_lines "$2" "$program-lto" >>"$of-$1-lto"
+  size_lines "$(title_of "$2")" "$program" "$(awk '/^all modules/ { print $NF }' "$of-$1-$2-modules")" >>"$of-$1"
+  size_lines "$(title_of "$2")" "$program-lto" >>"$of-$1-lto"
   [ "$2" != minimal ] || size_with_classic_drivers "$1" "$2"
 }
 
@@ -173,7 +180,7 @@ arm="arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion 2>/dev/null)"
 riscv="riscv64-unknown-elf-g++ $(riscv64-unknown-elf-g++ -dumpfullversion 2>/dev/null)"
 
 report_nodes() {
-  report nodes "program" --percent 1 --slack 16 --stacks "$root/tests/sizes/stacks.txt" \
+  report nodes "program" --percent 1 --slack 16 --limits "at most" --stacks "$root/tests/sizes/stacks.txt" \
     --column "Cortex-M0+" "$arm" "$of-m0plus" --column "Cortex-M0+ with LTO" "$arm" "$of-m0plus-lto" \
     --column "Cortex-M4" "$arm" "$of-m4" --column "Cortex-M4 with LTO" "$arm" "$of-m4-lto" \
     --column "rv32imac" "$riscv" "$of-rv32" --column "rv32imac with LTO" "$riscv" "$of-rv32-lto"
@@ -182,7 +189,7 @@ report_nodes() {
 report_modules() {
   local preset columns=()
   for preset in "${presets[@]}"; do
-    columns+=(--column "Cortex-M0+, $preset" "$arm" "$of-m0plus-$preset-modules"
+    [ "$preset" = fair ] || columns+=(--column "Cortex-M0+, $preset" "$arm" "$of-m0plus-$preset-modules"
       --column "Cortex-M4, $preset" "$arm" "$of-m4-$preset-modules"
       --column "rv32imac, $preset" "$riscv" "$of-rv32-$preset-modules")
   done
@@ -190,7 +197,8 @@ report_modules() {
 }
 
 report_memory() {
-  report memory "module" --column minimal "$arm" "$of-memory-minimal" --column slave "$arm" "$of-memory-slave" \
+  report memory "module" --column minimal "$arm" "$of-memory-minimal" --column "$(title_of fair)" "$arm" "$of-memory-fair" \
+    --column slave "$arm" "$of-memory-slave" \
     --column full "$arm" "$of-memory-full"
 }
 
@@ -200,23 +208,30 @@ report_things() {
 
 # Evaluates the functions of the C run time, too, which a program with the whole library contains.
 stack_depths() {
-  local of=$results/stack objects targets=(lexican_full)
+  local of=$results/stack objects targets=(lexican lexican_full)
   build_m0plus -DLEXICAN_SIZES=ON || return
-  mapfile -t objects < <(objects_of m0plus/lexican_full)
-  "${compile[@]}" "${objects[@]}" -nostartfiles "${specs[@]}" -Wl,-e,CONodeProcess -o "$of.elf" >"$of.log" 2>&1 ||
-    { fail "link of the library" "$of.log"; return 1; }
-  rm -f "$of-depths"
-  run_tap depths_of "$of" "$root/tests/stack/calls.txt"
-  [ -f "$of-depths" ] || return
+  rm -f "$of-depths" "$of-slave-depths"
+  link_library slave && run_tap depths_of "$of-slave" "$root/tests/stack/calls.txt" \
+    --only ", preset slave" CONodeProcess COTmrProcess
+  link_library full && run_tap depths_of "$of" "$root/tests/stack/calls.txt"
+  [ -f "$of-depths" ] && [ -f "$of-slave-depths" ] || return
+  cat "$of-slave-depths" >>"$of-depths"
   planted_calls "a call without a line" '^base/timer.cpp' "no line lists what timer.Func() may call"
   planted_calls "a function that calls itself" '^limit' "leads to a function that calls itself"
   run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/stack/depths.txt" \
     --page "$root/docs/sizes.md" --table stack --title function --remark "by way of" --column bytes "$arm" "$of-depths"
 }
 
-depths_of() {  # RESULT CALLS
+# Links all objects of a library and sets $objects to them.
+link_library() {  # PRESET
+  mapfile -t objects < <(objects_of "m0plus/lexican_$1")
+  "${compile[@]}" "${objects[@]}" -nostartfiles "${specs[@]}" -Wl,-e,CONodeProcess -o "$of.elf" >"$of.log" 2>&1 ||
+    { fail "link of the library, $1" "$of.log"; return 1; }
+}
+
+depths_of() {  # RESULT CALLS [OPTION...]
   python3 -B "$root/tests/stack/depth.py" --objects "${objects[@]}" --sources "$root/src" --calls "$2" \
-    --program "$results/stack.elf" --tools arm-none-eabi- --depths "$1-depths" --ways "$1-ways"
+    --program "$results/stack.elf" --tools arm-none-eabi- --depths "$1-depths" --ways "$1-ways" "${@:3}"
 }
 
 # Checks that depth.py detects what calls.txt does not list.
@@ -234,6 +249,7 @@ self_test() {
   planted "a number that has grown" '{ $2 += NR == 1; print }'
   planted "a number that was not measured" 'NR > 1'
   planted "a number that is not committed" '{ print } NR == 1 { print "another", 1 }'
+  check "found: a number above its limit" exceeds_limit
   sed 's/^| dictionary entry | 12/| dictionary entry | 13/' "$root/docs/sizes.md" >"$of-planted.md"
   check "found: a page with other numbers" is_refused "$of-planted.md" "$of-things-flash"
 }
@@ -241,6 +257,13 @@ self_test() {
 planted() {  # WHAT AWK-PROGRAM: changes what was measured
   awk -F '\t' -v OFS='\t' "$2" "$of-things-flash" >"$of-planted"
   check "found: $1" is_refused "$root/docs/sizes.md" "$of-planted"
+}
+
+exceeds_limit() {
+  sed '/^dictionary entry |/s/.*/dictionary entry | 12 | 0 | 11/' "$root/tests/sizes/things.txt" >"$of-planted"
+  ! python3 "$root/tests/lanes/numbers.py" --committed "$of-planted" --page "$root/docs/sizes.md" --table things \
+    --title "one more" --limits "at most" --column flash "$arm" "$of-things-flash" --column RAM "$arm" "$of-things-ram" \
+    >"$of-refused" && grep '^not ok dictionary entry, flash: 12, at most 11' "$of-refused"
 }
 
 is_refused() {  # PAGE FLASH
