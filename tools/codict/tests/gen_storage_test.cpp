@@ -212,6 +212,24 @@ TEST_CASE(
   CHECK(generates("<property name=\"CO_extensionIO\" value=\"false\"/>", "uint8_t od_2000_0;"));
 }
 
+TEST_CASE("gen: a sub-object of a stored object is kept in RAM if an XDD says so, also after a conversion to EDS") {
+  // An EDS of CANopenEditor says RAM at each sub-object without a group of its own.
+  CHECK(generate(test::fixture_text("gen/storage.eds")).has("(CO_DATA)(&small_persist_app.od_2001_1)"));
+  std::string text = test::fixture_text("gen/storage.xdd");
+  const std::size_t parameter = text.find("<q1:parameter uniqueID=\"UID_SUB_200101\"");
+  REQUIRE(parameter != std::string::npos);
+  text.insert(text.find("</q1:parameter>", parameter), "<q1:property name=\"CO_storageGroup\" value=\"RAM\"/>");
+  const test::XmlReading xdd(text);
+  Findings findings;
+  const gen::Output output = gen::generate(xdd.device, small_options(), findings);
+  REQUIRE(!output.files.empty());
+  CHECK(output.files.at(1).bytes.find("(CO_DATA)(&small_ram.od_2001_1)") != std::string::npos);
+  CHECK(output.files.at(1).bytes.find("(CO_DATA)(&small_persist_comm.od_2001_2)") != std::string::npos);
+  const Generated back = generate(eds::write(xdd.device, {}));
+  CHECK(back.header() == output.files.at(0).bytes);
+  CHECK(back.source() == output.files.at(1).bytes);
+}
+
 TEST_CASE("gen: RAM, ROM and constants are not storage groups") {
   for (const char* group : {"RAM", "ROM", "rom", "const", "CONSTANT"}) {
     CAPTURE(group);

@@ -252,6 +252,21 @@ TEST_CASE("JSON: a value without text gets one, and a text without value is pars
   CHECK(test::meaning(value_of(JsonReading(with(R"("default_value": -1.5)")))) == "-1.5");
 }
 
+TEST_CASE("JSON: RAM at a sub-object is a storage group, unless it comes from an EDS") {
+  const auto group_of = [](const JsonReading& reading) {
+    return reading.device().find(0x2001)->find(1)->node->storage_group.value;
+  };
+  const auto with_group = [](const std::string& group) {
+    return R"({"schema": "codict-device-1", "devices": [{"format": "eds", "objects": [{"index": 8193, "subs": [
+{"sub_index": 1, "node": {"storage_group": )" +
+           group + "}}]}]}]}";
+  };
+  CHECK(group_of(JsonReading(with_group("\"RAM\""))) == "RAM");
+  CHECK(group_of(JsonReading(with_group("{\"text\": \"RAM\"}"))) == "RAM");
+  const test::Reading eds("gen/storage.eds");
+  CHECK(group_of(JsonReading(json::write(eds.description))) == "");
+}
+
 TEST_CASE("JSON: a text that contradicts its value is an error") {
   CHECK(JsonReading(with(R"("default_value": {"kind": "integer", "value": 5, "text": "4"})")).found() ==
         "2:75 json-contradiction\n");

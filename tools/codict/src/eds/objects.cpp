@@ -34,8 +34,8 @@ bool read_python_key(Entry& entry, const Key& key, const Reader& reader) {
   return true;
 }
 
-// Reads the keys that CANopenEditor stores in comments.
-void read_hidden_keys(Entry& entry, const Section& section, const Reader& reader) {
+// Reads the keys that CANopenEditor stores in comments. It writes RAM at each sub-object without a group of its own.
+void read_hidden_keys(Entry& entry, const Section& section, bool is_sub, const Reader& reader) {
   const auto read = [&](std::string_view name, std::string_view what) {
     const std::optional<Key> key = comment_key(reader.document, section, name);
     if (key) {
@@ -49,7 +49,7 @@ void read_hidden_keys(Entry& entry, const Section& section, const Reader& reader
   if (const std::optional<Key> key = read(storage_key, "storage group")) {
     Field<std::string>& group = entry.node.edit().storage_group;
     static_cast<Text&>(group) = text_of(reader.document, *key);
-    group.value = group.text;
+    group.value = is_sub && equal_ignoring_case(group.text, "RAM") ? std::string() : group.text;
   }
   if (const std::optional<Key> key = read(trigger_key, trigger_key)) {
     Field<bool>& flag = entry.node.edit().flags_pdo.edit();
@@ -212,7 +212,7 @@ void read_sub(Sub& sub, const Section& section, const Reader& reader) {
       store_opaque_key(key, sub.others, reader);
     }
   }
-  read_hidden_keys(sub, section, reader);
+  read_hidden_keys(sub, section, true, reader);
 }
 
 // Completes a missing default value of sub-index 0 with the highest sub-index. [306: 4.6.3]
@@ -263,7 +263,7 @@ void read_object(Object& object, const Section& section, const Reader& reader) {
   for (const Key& key : section.keys) {
     read_key(object, key, reader);
   }
-  read_hidden_keys(object, section, reader);
+  read_hidden_keys(object, section, false, reader);
 }
 
 std::size_t number_of_objects(const std::vector<NamedSection>& sorted) {

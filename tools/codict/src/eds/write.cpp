@@ -116,6 +116,7 @@ class Writer {
   void commissioning(const Device& normal);
   void entry(const Entry& entry);
   void object(const Object& object, const std::string& prefix);
+  void object_sections(const Object& object, const std::string& prefix);
   void compact_lists(const Object& object, const std::string& name);
   void sub_list(const std::string& name, const std::vector<std::pair<unsigned, std::string>>& entries);
   void module(const Module& module);
@@ -265,7 +266,28 @@ void Writer::compact_lists(const Object& object, const std::string& name) {
   }
 }
 
+// Returns an object whose sub-objects name their groups, if one of them is not stored: an EDS cannot say otherwise that
+// a sub-object of a stored object is not stored.
+Object with_groups_of_subs(Object object) {
+  const Field<std::string> group = object.node->storage_group;
+  object.node.edit().storage_group.value = "RAM";
+  for (Sub& sub : object.subs) {
+    if (sub.node->storage_group.value.empty()) {
+      sub.node.edit().storage_group = group;
+    }
+  }
+  return object;
+}
+
 void Writer::object(const Object& object, const std::string& prefix) {
+  const bool is_partly_stored =
+      !named_group(object.node).empty() && std::any_of(object.subs.begin(), object.subs.end(), [](const Sub& sub) {
+        return equal_ignoring_case(sub.node->storage_group.value, "RAM");
+      });
+  is_partly_stored ? object_sections(with_groups_of_subs(object), prefix) : object_sections(object, prefix);
+}
+
+void Writer::object_sections(const Object& object, const std::string& prefix) {
   const std::string name = prefix + fmt::format("{:04X}", object.index);
   section(name);
   entry(object);

@@ -574,8 +574,8 @@ class Items {
   void set_group(Item& item, const Object& object, const Entry& entry) {
     const bool is_memory = item.storage == Storage::variable || item.storage == Storage::string ||
                            item.storage == Storage::domain || item.storage == Storage::consumer;
-    const std::string_view own = named_group(entry.node);
-    const std::string name(own.empty() ? named_group(object.node) : own);
+    const std::string& own = entry.node->storage_group.value;
+    const std::string& name = own.empty() ? object.node->storage_group.value : own;
     if (!is_memory || !is_storage_group(name) || item.access == Access::constant) {
       return;
     }

@@ -127,9 +127,11 @@ enum class SrdoAccess : unsigned char { no, tx, rx, trx };
 
 /// Properties that both generations of CANopenNode add to descriptions, and `;StorageLocation=` of an EDS.
 struct NodeProperties {
-  Rare<Field<bool>> disabled;                    ///< CO_disabled: kept in the description, not generated
-  Rare<Text> count_label;                        ///< CO_countLabel
-  Field<std::string> storage_group;              ///< CO_storageGroup; value "RAM": not stored (text "RAM" or "0")
+  Rare<Field<bool>> disabled;  ///< CO_disabled: kept in the description, not generated
+  Rare<Text> count_label;      ///< CO_countLabel
+  /// CO_storageGroup; value "RAM": not stored (text "RAM" or "0"); empty value: a sub-object has the group of its
+  /// object
+  Field<std::string> storage_group;
   Rare<Field<SrdoAccess>> srdo;                  ///< CO_accessSRDO
   Rare<Field<std::uint32_t>> string_length_min;  ///< CO_stringLengthMin, in characters
   Rare<Field<std::uint32_t>> byte_length;        ///< CO_byteLength, of the older generation
@@ -137,8 +139,8 @@ struct NodeProperties {
   Rare<Field<bool>> flags_pdo;                   ///< CO_flagsPDO, of the older generation
 };
 
-/// Returns the storage group that an object or sub-object names; empty for RAM, which a sub-object of CANopenEditor
-/// names if it has no group. The group of an object is that of its sub-objects without one.
+/// Returns the storage group that an object or sub-object names; empty for RAM. The group of an object is that of its
+/// sub-objects that name none.
 std::string_view named_group(const NodeProperties& node);
 
 /// A named text that an application adds to an object. [311: property]

@@ -72,11 +72,11 @@ void read_denotation(Entry& entry, pugi::xml_node element, const Reader& reader)
   entry.denotation = first_of(entry.denotations);
 }
 
-// Sets the name of a storage group: "RAM" for an empty text and for 0, which CANopenNode writes for it.
+// Sets the name of a storage group: "RAM" for 0, which CANopenNode writes for it.
 void interpret_storage_group(Field<std::string>& group) {
   const bool is_number = !group.text.empty() && std::all_of(group.text.begin(), group.text.end(), is_digit);
   const bool is_zero = is_number && group.text.find_first_not_of('0') == std::string::npos;
-  group.value = group.text.empty() || is_zero ? "RAM" : group.text;
+  group.value = is_zero ? "RAM" : group.text;
 }
 
 void interpret_srdo(Field<SrdoAccess>& srdo, Findings& findings) {
@@ -180,9 +180,6 @@ bool read_parameter_part(Entry& entry, pugi::xml_node child, const Reader& reade
 
 void interpret_node(NodeProperties& node, Findings& findings) {
   interpret_storage_group(node.storage_group);
-  if (!node.storage_group.is_given) {
-    node.storage_group.value.clear();
-  }
   for (Rare<Field<bool>>* flag : {&node.disabled, &node.extension_io, &node.flags_pdo}) {
     interpret_boolean(*flag, findings);
   }

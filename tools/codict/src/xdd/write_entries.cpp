@@ -245,7 +245,9 @@ void EntryWriter::properties(const Entry& entry, bool is_variable) {
   };
   known("CO_disabled", node.disabled);
   known("CO_countLabel", node.count_label);
-  known("CO_storageGroup", node.storage_group);
+  if (!is_eds_ || !node.storage_group.value.empty()) {  // RAM of a sub-object means nothing in an EDS
+    known("CO_storageGroup", node.storage_group);
+  }
   if (is_variable && has_groups_ && value_in_force(entry).kind == Value::Kind::none) {
     property("CO_extensionIO", "false");  // otherwise an empty default value is memory of the application
   } else {
