@@ -7,6 +7,7 @@
 
 #include "eds/read.hpp"
 #include "eds/rules.hpp"
+#include "eds/write.hpp"
 #include "reading.hpp"
 
 using namespace lexican::codict;
@@ -27,11 +28,32 @@ TEST_CASE("EDS: an index with 0x or h, or of letters only, is read") {
   CHECK(eds.at(0x2040).name.text == "Prefix");
   CHECK(eds.at(0x2041, 1).name.text == "First");
   CHECK(eds.device.find(0x0FFF)->object_code.value == ObjectCode::deftype);
-  CHECK(eds.device.find(0x0BAC) == nullptr);
+  CHECK(eds.device.find(0x00A0)->data_type.value == 3);
+  CHECK(eds.at(0x00B2, 1).name.text == "Type");
   CHECK(eds.found() ==
         "25:2 eds-section-mark\n31:2 eds-section-mark\n36:2 eds-section-mark\n43:2 eds-section-mark\n"
-        "49:2 eds-section-zeros\n55:2 eds-section-unknown\n");
+        "49:2 eds-section-zeros\n55:2 eds-section-unknown\n58:2 eds-section-zeros\n58:2 eds-section-mark\n"
+        "64:2 eds-section-unknown\n67:2 eds-section-unknown\n70:2 eds-section-zeros\n70:2 eds-section-mark\n70:2 "
+        "od-sub-zero-missing\n"
+        "75:2 eds-section-zeros\n75:2 eds-section-mark\n");
   CHECK(eds.findings.all().at(3).hint == "write [2041sub1]");
+}
+
+TEST_CASE("EDS: a section whose name is a word of the letters A to F is an object if it has keys of objects") {
+  const Reading eds("section_mark.eds");
+  for (const int index : {0x0BAC, 0xFACE, 0x00A1}) {
+    CHECK(eds.device.find(static_cast<std::uint16_t>(index)) == nullptr);
+  }
+  const std::string written = eds::write(eds.device, {});
+  for (const char* const name : {"[Bach]", "[FACE]", "[A1h]"}) {
+    CAPTURE(name);
+    CHECK(written.find(std::string(name) + "\r\nText=Of another tool\r\n") != std::string::npos);
+  }
+  Findings findings;
+  const eds::Document document(Source("word.eds", "[FACE]\nParameterName=x\nDataType=5\n[BAD]\nReason=x\n"), findings);
+  const Description description = eds::read(document, findings);
+  CHECK(description.devices.front().find(0xFACE)->data_type.value == type_code::unsigned8);
+  CHECK(description.devices.front().objects.size() == 1);
 }
 
 TEST_CASE("EDS: text after a section name is ignored") {

@@ -132,7 +132,7 @@ const eds::Section* find_section(const Input& input, const std::string& target, 
   const Object* const object = input.device().find(reference.index);
   const bool is_variable = object != nullptr && object->subs.empty();
   for (const eds::Section& section : document.sections()) {
-    if (is_section_of(eds::section_name(document.raw(section.name)), reference, is_variable)) {
+    if (is_section_of(eds::section_name(document, section), reference, is_variable)) {
       return &section;
     }
   }

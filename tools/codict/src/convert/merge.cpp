@@ -63,7 +63,7 @@ class Merger {
   Merger(const eds::Document& base, const eds::Document& overlay, std::vector<ReplacedValue>& replaced)
       : base_(base), overlay_(overlay), replaced_(replaced), end_(base.line_end()) {
     for (const eds::Section& section : base.sections()) {
-      const SectionName name = eds::section_name(base.raw(section.name));
+      const SectionName name = eds::section_name(base, section);
       if (name.kind == SectionKind::other || section.is_duplicate) {
         continue;
       }
@@ -77,7 +77,7 @@ class Merger {
   bool run(std::string& bytes) {
     std::vector<std::pair<SectionName, const eds::Section*>> fresh;
     for (const eds::Section& section : overlay_.sections()) {
-      const SectionName name = eds::section_name(overlay_.raw(section.name));
+      const SectionName name = eds::section_name(overlay_, section);
       if (section.is_duplicate || eds::list_form(name).count == "SupportedObjects") {
         continue;
       }

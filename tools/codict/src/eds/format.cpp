@@ -136,7 +136,7 @@ class Formatter {
  public:
   explicit Formatter(const Document& document) : document_(document) {
     for (const Section& section : document.sections()) {
-      const SectionName name = section_name(document.raw(section.name));
+      const SectionName name = section_name(document, section);
       if (name.kind == SectionKind::sub && name.sub_index != 0xFF) {
         subs_[name.index].insert(name.sub_index);
       }
@@ -152,7 +152,7 @@ class Formatter {
     std::vector<Block> blocks;
     std::vector<std::string_view> between;
     for (const Section& section : document_.sections()) {
-      blocks.push_back({&section, section_name(document_.raw(section.name)), std::exchange(between, {}), {}});
+      blocks.push_back({&section, section_name(document_, section), std::exchange(between, {}), {}});
       read(blocks.back(), between);
     }
     std::stable_sort(blocks.begin(), blocks.end(),

@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 
-#include "eds/document.hpp"
 #include "text/number.hpp"
 
 namespace lexican::codict::eds {
@@ -54,7 +53,8 @@ std::string_view take_index(std::string_view& text) {
   const std::string_view digits = start.substr(0, static_cast<std::size_t>(end - start.begin()));
   const std::string_view rest = text.substr(digits.size());
   const bool is_short = digits.size() < 4 && (digits.empty() || !is_digit(digits.front()));
-  if (is_short && (digits.size() < 2 || !(rest.empty() || begins_with(rest, sub_word)))) {
+  const std::string_view behind = rest.substr(begins_with(rest, "h") ? 1 : 0);
+  if (is_short && (digits.size() < 2 || !(behind.empty() || begins_with(behind, sub_word)))) {
     return {};
   }
   text = rest;
@@ -156,6 +156,28 @@ void read_module(std::string_view text, SectionName& name) {
 }
 
 }  // namespace
+
+bool may_be_word(std::string_view name) {
+  const bool has_h = !name.empty() && to_lower(name.back()) == 'h';
+  const std::string_view digits = name.substr(0, name.size() - (has_h ? 1 : 0));
+  const bool are_letters = std::none_of(digits.begin(), digits.end(), is_digit);
+  const bool is_short = digits.size() < 4 && !digits.empty() && !is_digit(digits.front());
+  return digits.size() >= 2 && digits.size() <= 4 && std::all_of(digits.begin(), digits.end(), is_hex) &&
+         (are_letters || (has_h && is_short));
+}
+
+bool is_key_of_object(std::string_view key) {
+  return compare_names(key, "ObjectType") == 0 || compare_names(key, "DataType") == 0 ||
+         compare_names(key, "ParameterName") == 0;
+}
+
+SectionName section_name(const Document& document, const Section& section) {
+  const std::string_view name = document.raw(section.name);
+  const bool is_word = may_be_word(name) &&
+                       std::none_of(section.keys.begin(), section.keys.end(),
+                                    [&document](const Key& key) { return is_key_of_object(document.raw(key.name)); });
+  return is_word ? SectionName() : section_name(name);
+}
 
 SectionName section_name(std::string_view name) {
   SectionName result;

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "eds/document.hpp"
+
 namespace lexican::codict::eds {
 
 enum class SectionKind : unsigned char {
@@ -35,7 +37,15 @@ struct SectionName {
   bool has_odd_case = false;   ///< lower-case digits, or upper-case letters in "sub"
 };
 
-/// Interprets the name of a section; kind `other` if CiA 306 does not define such a name.
+/// Returns true for names of objects that may be words of other tools: FACE, BACh, A0h. They are names of objects only
+/// if the section has a key of objects.
+bool may_be_word(std::string_view name);
+/// Returns true for the keys ObjectType, DataType and ParameterName.
+bool is_key_of_object(std::string_view key);
+
+/// Interpret the name of a section; kind `other` if CiA 306 does not define such a name, or if it is a word.
+SectionName section_name(const Document& document, const Section& section);
+/// Like the other one, but names that may be words are names of objects.
 SectionName section_name(std::string_view name);
 
 /// Returns whether a section describes an object or a part of one.

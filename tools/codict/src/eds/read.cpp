@@ -66,7 +66,7 @@ std::vector<NamedSection>& place_of(SectionKind kind, SortedSections& sorted) {
 SortedSections sort_sections(const Reader& reader) {
   SortedSections sorted;
   for (const Section& section : reader.document.sections()) {
-    const NamedSection named{section_name(reader.document.raw(section.name)), &section};
+    const NamedSection named{section_name(reader.document, section), &section};
     report_form(named, reader);
     place_of(named.name.kind, sorted).push_back(named);
   }

@@ -43,7 +43,7 @@ bool is_word(std::string_view text) {
 bool has_words_for_types(const Document& document) {
   for (const Section& section : document.sections()) {
     const Key* const type = document.find(section, "ObjectType");
-    if (type != nullptr && section_name(document.raw(section.name)).kind == SectionKind::object) {
+    if (type != nullptr && section_name(document, section).kind == SectionKind::object) {
       return is_word(document.raw(type->value));
     }
   }
@@ -82,7 +82,7 @@ std::string refusal(const Document& document) {
   }
   const auto& sections = document.sections();
   const bool is_known = std::any_of(sections.begin(), sections.end(), [&document](const Section& section) {
-    return section_name(document.raw(section.name)).kind != SectionKind::other;
+    return section_name(document, section).kind != SectionKind::other;
   });
   if (!is_known) {
     return refusal_without_sections(document);

@@ -382,8 +382,11 @@ void Writer::modules() {
 void Writer::other_sections() {
   for (const OpaquePart& other : device_.others) {
     const bool is_unwritten = others_.count(other.name) != 0;
+    const bool is_word =
+        may_be_word(other.name) && std::none_of(other.children.begin(), other.children.end(),
+                                                [](const OpaquePart& key) { return is_key_of_object(key.name); });
     if (is_of_eds(device_) && is_unwritten && !other.name.empty() &&
-        section_name(other.name).kind == SectionKind::other) {
+        (is_word || section_name(other.name).kind == SectionKind::other)) {
       section(other.name);
       opaque_keys_of(other.name);
     }
