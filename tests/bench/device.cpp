@@ -140,10 +140,6 @@ bool holds(const CO_IF_FRM& frame, const Layout& layout, const std::uint8_t* mem
 }
 
 void start(CO_MODE mode) {
-  static CO_NODE_EXT settings;  // must live as long as the node
-  settings.Size = sizeof settings;
-  settings.Can = &can;
-  settings.Timer = &timer;
   std::sort(entries, entries + number_of_entries, [](const CO_OBJ& a, const CO_OBJ& b) { return a.Key < b.Key; });
   CO_NODE_SPEC spec{};
   spec.NodeId = node_id;
@@ -155,7 +151,7 @@ void start(CO_MODE mode) {
   spec.TmrNum = most_timers;
   spec.TmrFreq = ticks_per_second;
   spec.SdoBuf = sdo_buffer;
-  CONodeInitCtx(&node, &spec, &settings);
+  init_node(spec);
   CONodeStart(&node);
   CONmtSetMode(&node.Nmt, mode);
   if (CONodeGetErr(&node) != CO_ERR_NONE || CONmtGetMode(&node.Nmt) != mode) {

@@ -3,11 +3,11 @@
 /// Drivers for the bus and the timer of device.hpp.
 #pragma once
 
-#include "co_if.h"
+#include "co_core.h"
 
 namespace bench {
 
-extern const CO_IF_CAN_DRV_EX can;
-extern const CO_IF_TIMER_DRV_EX timer;
+/// Initialises the node of device.hpp with the drivers.
+void init_node(CO_NODE_SPEC& spec);
 
 }  // namespace bench

@@ -80,11 +80,10 @@ bool WrittenObject::is_done(unsigned) {
          holds(sent(0), bytes, memory);
 }
 
-void Sync::arrange(unsigned) {
+void Sync::receive_all() {
   for (std::uint16_t number = 0; number < rpdos_; ++number) {
     received_[number] = random_rpdo(number, layout_, random_);
     receive(received_[number]);
-    CONodeProcess(&node);
   }
   for (std::uint16_t number = 0; number < tpdos_; ++number) {
     put(tpdo_memory(number), layout_, random_);

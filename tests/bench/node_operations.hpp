@@ -99,9 +99,21 @@ class Sync : public Operation {
        unsigned tpdos)
       : set_up_node_(set_up_node), layout_(layout), rpdos_(rpdos), tpdos_(tpdos) {}
   void set_up() { set_up_node_(layout_, rpdos_, tpdos_); }
-  void arrange(unsigned);
+  void arrange(unsigned) {
+    receive_all();
+    process_rpdos();
+  }
   void run() { CONodeProcess(&node); }
   bool is_done(unsigned);
+
+ protected:
+  /// Receives the frames of the RPDOs and the SYNC.
+  void receive_all();
+  void process_rpdos() {
+    for (unsigned n = 0; n < rpdos_; ++n) {
+      CONodeProcess(&node);
+    }
+  }
 
  private:
   void (*set_up_node_)(const Layout&, unsigned rpdos, unsigned tpdos);
@@ -110,6 +122,17 @@ class Sync : public Operation {
   unsigned tpdos_;
   Random random_;
   CO_IF_FRM received_[4] = {};
+};
+
+/// Like Sync, but the reception of the RPDOs' frames is counted.
+class SyncWithReception : public Sync {
+ public:
+  using Sync::Sync;
+  void arrange(unsigned) { receive_all(); }
+  void run() {
+    process_rpdos();
+    Sync::run();
+  }
 };
 
 /// Start a device whose PDOs are all event-driven, and one whose first PDOs are synchronous.

@@ -80,7 +80,9 @@ void measure_tpdos() {
   measure("TPDO, 4 x 16 bits, scattered, trigger to frame", triggered(scattered_halves));
   measure("TPDO, 2 x 32 bits, neighbours, trigger to frame", triggered(words));
   measure("TPDO, 2 x 32 bits, scattered, trigger to frame", triggered(scattered_words));
-  measure("TPDO, 8 x 8 bits, remote request to frame", RemoteRequest());
+  if (USE_PDO_RTR != 0) {
+    measure("TPDO, 8 x 8 bits, remote request to frame", RemoteRequest());
+  }
   measure("TPDO, 8 x 8 bits, write of an object to frame", WrittenObject(set_up_event_driven));
 }
 
@@ -99,6 +101,8 @@ void measure_sync() {
   measure("SYNC, 1 TPDO of 2 x 32 bits, neighbours", sync(words, 0, 1));
   measure("SYNC, 1 TPDO of 2 x 32 bits, scattered", sync(scattered_words, 0, 1));
   measure("SYNC, 4 RPDOs and 1 TPDO of 8 x 8 bits, neighbours", sync(bytes, 4, 1));
+  measure("SYNC, 4 RPDOs and 1 TPDO of 8 x 8 bits, neighbours, reception included",
+          SyncWithReception(set_up_synchronous, bytes, 4, 1));
   measure("SYNC, 4 RPDOs and 4 TPDOs of 8 x 8 bits, neighbours", sync(bytes, 4, 4));
 }
 

@@ -133,6 +133,15 @@ class ExpeditedDownload : public Exchange {
   std::uint32_t written_ = 0;
 };
 
+class RefusedUpload : public Exchange {
+ public:
+  void set_up() { set_up_server(0); }
+  void arrange(unsigned) {
+    constexpr std::uint32_t no_such_object = 0x06020000;
+    ask(command(request_id, 0x40, 0x2001, 0, 0), command(response_id, 0x80, 0x2001, 0, no_such_object));
+  }
+};
+
 constexpr std::uint8_t toggle(unsigned n) { return n % 2 == 0 ? 0x00 : 0x10; }
 
 constexpr std::uint32_t segmented_bytes = 2 * usual_number * segment_bytes + 1;  // the last segment is not measured
@@ -250,6 +259,7 @@ class BlockDownload : public Operation {
 void measure_sdo() {
   measure("SDO expedited upload, 4 bytes", ExpeditedUpload());
   measure("SDO expedited download, 4 bytes", ExpeditedDownload());
+  measure("SDO abort, no such object", RefusedUpload());
   measure_byte("SDO segmented upload, per byte", SegmentedUpload(), usual_number, segment_bytes);
   measure_byte("SDO segmented download, per byte", SegmentedDownload(), usual_number, segment_bytes);
   measure_byte("SDO block upload with CRC, per byte", BlockUpload(), blocks, block_bytes);

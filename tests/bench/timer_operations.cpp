@@ -23,17 +23,19 @@ void set_up_timers(unsigned number) {
   }
 }
 
-// A timer that is inserted between the eighth and the ninth of sixteen.
+// A timer that is inserted behind the first ones of sixteen.
 class CreateAndDelete : public Operation {
  public:
+  explicit CreateAndDelete(unsigned timers_before) : ticks_(timers_before * spacing + spacing / 2) {}
   void set_up() { set_up_timers(16); }
   void run() {
-    id_ = COTmrCreate(&node.Tmr, 8 * spacing + spacing / 2, 0, count_call, nullptr);
+    id_ = COTmrCreate(&node.Tmr, ticks_, 0, count_call, nullptr);
     deleted_ = COTmrDelete(&node.Tmr, id_);
   }
   bool is_done(unsigned) { return id_ >= 0 && deleted_ == 0 && COTmrDelete(&node.Tmr, id_) < 0; }
 
  private:
+  std::uint32_t ticks_;
   std::int16_t id_ = 0;
   std::int16_t deleted_ = 0;
 };
@@ -60,8 +62,11 @@ class Expire : public Operation {
 }  // namespace
 
 void measure_timers() {
-  measure("timer created and deleted, in the middle of 16", CreateAndDelete());
+  measure("timer created and deleted, in front of 16", CreateAndDelete(0));
+  measure("timer created and deleted, in the middle of 16", CreateAndDelete(8));
+  measure("timer created and deleted, behind 16", CreateAndDelete(16));
   measure("cyclic timer expires, the only one", Expire(1));
+  measure("cyclic timer expires, 16 active", Expire(16));
   measure("cyclic timer expires, 64 active", Expire(64));
 }
 

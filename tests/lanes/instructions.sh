@@ -16,26 +16,42 @@ count_operations() {
   local of=$results/instructions arm host
   arm="arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion)"
   host="$(g++ -dumpmachine)-g++ $(g++ -dumpfullversion)"
-  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} \
-    --committed "$root/tests/bench/instructions.txt" --page "$root/docs/speed.md" --table instructions --title operation \
-    --percent 5 --stacks "$root/tests/bench/stacks.txt" \
+  report_operations instructions stacks \
     --column "Cortex-M3 -O2" "$arm" "$of-m3-lexican" "$of-m3-lexican_many_pdos" "$of-m3-lexican_od" \
+    --column "Cortex-M3 -O2, features of the others" "$arm" "$of-m3-lexican_others_features-stacks" \
     --column "Cortex-M0+ -Os" "$arm" "$of-m0plus-lexican" "$of-m0plus-lexican_many_pdos" "$of-m0plus-lexican_od" \
+    --column "Cortex-M0+ -Os, features of the others" "$arm" "$of-m0plus-lexican_others_features-stacks" \
     --column "host -O2" "$host" "$of-host-lexican" "$of-host-lexican_many_pdos" "$of-host-lexican_od"
+  report_operations classic_drivers classic_stacks \
+    --column "Cortex-M3 -O2" "$arm" "$of-m3-lexican_classic-classic_stacks" \
+    --column "Cortex-M0+ -Os" "$arm" "$of-m0plus-lexican_classic-classic_stacks"
+}
+
+report_operations() {  # TABLE STACKS COLUMN...
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/bench/$1.txt" \
+    --page "$root/docs/speed.md" --table "$1" --title operation --percent 5 --stacks "$root/tests/bench/$2.txt" "${@:3}"
 }
 
 programs=(lexican lexican_many_pdos lexican_od)
+compared_programs=(lexican_others_features lexican_classic)  # on a Cortex-M only
 
 build_m0plus_programs() {
-  local targets=("${programs[@]/%/_instructions}")
+  local targets=("${programs[@]/%/_instructions}" "${compared_programs[@]/%/_instructions}")
   build_m0plus -DLEXICAN_BENCH=ON
 }
 
 count_on_arm() {  # TREE
-  local program
-  for program in "${programs[@]}"; do
-    run_on_machine "$results/instructions-$1-$program" "$build/$1/tests/bench/${program}_instructions" || return
+  local program of=$results/instructions-$1
+  for program in "${programs[@]}" "${compared_programs[@]}"; do
+    run_on_machine "$of-$program" "$build/$1/tests/bench/${program}_instructions" || return
   done
+  keep_rows_of stacks "$of-lexican_others_features"
+  keep_rows_of classic_stacks "$of-lexican_classic"
+}
+
+# Writes the rows that other stacks have to RESULT-STACKS.
+keep_rows_of() {  # STACKS RESULT
+  awk -F '\t| [|] ' 'NR == FNR { other[$1]; next } $1 in other' "$root/tests/bench/$1.txt" "$2" >"$2-$1"
 }
 
 # Counts are the same on every host, as each instruction takes the same time on the clock of the emulated machine.
