@@ -29,7 +29,7 @@ count_operations() {
 
 report_operations() {  # TABLE STACKS COLUMN...
   run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/bench/$1.txt" \
-    --page "$root/docs/speed.md" --table "$1" --title operation --percent 5 --stacks "$root/tests/bench/$2.txt" "${@:3}"
+    --page "$root/docs/speed.md" --table "$1" --title operation --percent 3 --stacks "$root/tests/bench/$2.txt" "${@:3}"
 }
 
 programs=(lexican lexican_many_pdos lexican_od)
@@ -91,7 +91,7 @@ count_worst_frame() {
   done
   worst_of "${measured[@]}" >"$of"
   run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/frame_bound/bounds.txt" \
-    --page "$root/docs/speed.md" --table frame_bound --title frame --remark "the worst" --percent 5 \
+    --page "$root/docs/speed.md" --table frame_bound --title frame --remark "the worst" --percent 3 \
     --column "instructions" "arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion)" "$of"
 }
 
