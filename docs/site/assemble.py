@@ -24,6 +24,7 @@ LANGUAGES = {"*.c": "c", "*.h": "c", "*.cpp": "cpp", "*.hpp": "cpp", "*.eds": "i
              "CMakeLists.txt": "cmake", "makefile": "make"}
 NUMBERS = re.compile(r"^(\| \[(.+)\]\((\w+\.md)\S*\) \|) \| \| \|$", re.MULTILINE)
 STACKS = ("CANopen-Stack 4.4", "CANopenNode 4.1")
+LIMIT = "at most"
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
 
 
@@ -131,7 +132,8 @@ def page_of_program(root, program):
 
 
 def with_numbers(text, docs):
-    """The text with numbers in the rows that name a row of a page: of the first CPU, of Lexican and other stacks."""
+    """The text with numbers in the rows that name a row of a page: of the first CPU, of other stacks and, from the column
+    in front of theirs and of limits, of Lexican."""
 
     def cells_of(line):
         return [cell.strip() for cell in line.strip("|").split("|")]
@@ -142,7 +144,9 @@ def with_numbers(text, docs):
             if STACKS[0] in cells:
                 head = cells
             elif head and cells[0] == match[2]:
-                values = [cells[1], *(cells[head.index(stack)] for stack in STACKS)]
+                before = head[: head.index(STACKS[0])]
+                own = max(n for n, title in enumerate(before) if title != LIMIT)
+                values = [cells[own], *(cells[head.index(stack)] for stack in STACKS)]
                 return match[1] + "".join(f" {float(value):,.12g} |".replace(",", "\u202f") for value in values)
         sys.exit(f"docs/index.md: {match[3]} has no row '{match[2]}'")
 

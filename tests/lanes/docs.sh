@@ -41,7 +41,7 @@ lane() {
 # The build of the site fills the table of docs/index.md: no cell is empty, and one has the committed number.
 first_page_has_numbers() {
   local page=$build/site/html/index.html number
-  number=$(sed -n 's/^slave, flash of the stack alone | \([0-9]*\) .*/\1/p' "$root/tests/sizes/nodes.txt")
+  number=$(sed -n 's/^slave with the features of the others, flash of the stack alone | \([0-9]*\) .*/\1/p' "$root/tests/sizes/nodes.txt")
   ! grep '<td[^>]*></td>' "$page" && tr -d '\342\200\257' <"$page" | grep "<td[^>]*>$number</td>"
 }
 
