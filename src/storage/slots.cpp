@@ -39,24 +39,25 @@ uint32_t round_up(uint32_t value, uint32_t unit) {
   return over == 0 ? value : value + (unit - over);
 }
 
-uint32_t program_size(const CO_NODE& node) {
-  const uint32_t size = port::nvm_shape(node).ProgramSize;
-  return size == 0 ? 1 : size;
-}
+// The two slots of a record, and the geometry of the memory that they are in.
+struct Region {
+  Region(const CO_NODE& owner, const Record& what)
+      : node(owner),
+        record(what),
+        shape(port::nvm_shape(owner)),
+        program(shape.ProgramSize == 0 ? 1 : shape.ProgramSize),
+        unit(shape.EraseSize == 0 ? program : shape.EraseSize),
+        header(round_up(sizeof(Header), program)),
+        slot(round_up(header + round_up(what.size, program), unit)) {}
 
-// Returns the bytes of which the address and size of a slot are multiples: the unit in which the memory can be erased
-// and programmed.
-uint32_t unit(const CO_NODE& node) {
-  const uint32_t program = program_size(node);
-  const uint32_t erase = port::nvm_shape(node).EraseSize;
-  return erase == 0 ? program : erase;
-}
-
-uint32_t header_size(const CO_NODE& node) { return round_up(sizeof(Header), program_size(node)); }
-
-uint32_t slot_size(const CO_NODE& node, uint32_t size) {
-  return round_up(header_size(node) + round_up(size, program_size(node)), unit(node));
-}
+  const CO_NODE& node;
+  const Record& record;
+  CO_NVM_SHAPE shape;
+  uint32_t program;  // program size
+  uint32_t unit;     // address and size of a slot are multiples of this
+  uint32_t header;   // bytes that the header occupies
+  uint32_t slot;     // bytes that a slot occupies
+};
 
 // Returns the CRC of the header and the identity of the record; the data are to be added.
 wire::Crc32 crc_of(const Header& header, const Record& record) {
@@ -98,10 +99,11 @@ class Outside {
 // Work memory whose size is a multiple of the program size.
 class Buffer {
  public:
-  explicit Buffer(const CO_NODE& node) : size_(CO_STORE_BUFFER - CO_STORE_BUFFER % program_size(node)) {
+  explicit Buffer(const Region& region) : size_(CO_STORE_BUFFER - CO_STORE_BUFFER % region.program) {
     CO_ASSERT(size_ != 0 && size_ <= sizeof bytes_);
   }
-  [[nodiscard]] uint32_t size() const { return size_; }
+  // Returns the bytes of the next piece of so many.
+  [[nodiscard]] uint32_t piece_of(uint32_t bytes) const { return bytes < size_ ? bytes : size_; }
   [[nodiscard]] uint8_t* bytes() { return bytes_; }
 
  private:
@@ -109,20 +111,43 @@ class Buffer {
   uint8_t bytes_[CO_STORE_BUFFER] = {};
 };
 
-bool read(const CO_NODE& node, uint32_t start, void* to, uint32_t size) {
-  const Outside outside(node);
-  return port::nvm_read(node, start, static_cast<uint8_t*>(to), size) == size;
+bool read(const Region& region, uint32_t start, void* to, uint32_t size) {
+  const Outside outside(region.node);
+  return port::nvm_read(region.node, start, static_cast<uint8_t*>(to), size) == size;
 }
 
-// Adds size bytes of the memory to the CRC, in pieces. Returns false if they cannot be read.
-bool add_to_crc(const CO_NODE& node, uint32_t start, uint32_t size, wire::Crc32& crc) {
-  Buffer buffer(node);
+// Use of the data of a slot while their CRC is calculated.
+struct Pass {
+  uint8_t* to;             // memory of the application for the first bytes; null: none
+  uint32_t left;           // bytes to be copied there
+  const uint8_t* compare;  // bytes to compare with; null: none
+  bool differs;
+};
+
+void use(Pass& pass, const uint8_t* bytes, uint32_t size) {
+  const uint32_t copied = size < pass.left ? size : pass.left;
+  if (copied != 0) {
+    __builtin_memcpy(pass.to, bytes, copied);
+    pass.to += copied;
+    pass.left -= copied;
+  }
+  if (pass.compare != nullptr) {
+    pass.differs = pass.differs || !is_same(bytes, pass.compare, size);
+    pass.compare += size;
+  }
+}
+
+// Adds size bytes of the memory to the CRC, in pieces. Returns false if they cannot be read. The application's memory
+// is written with the node lock held.
+bool add_to_crc(const Region& region, uint32_t start, uint32_t size, wire::Crc32& crc, Pass& pass) {
+  Buffer buffer(region);
   while (size != 0) {
-    const uint32_t piece = size < buffer.size() ? size : buffer.size();
-    if (!read(node, start, buffer.bytes(), piece)) {
+    const uint32_t piece = buffer.piece_of(size);
+    if (!read(region, start, buffer.bytes(), piece)) {
       return false;
     }
     crc.add(buffer.bytes(), piece);
+    use(pass, buffer.bytes(), piece);
     start += piece;
     size -= piece;
   }
@@ -136,10 +161,10 @@ bool is_blank(const Header& header) {
   return uniform && (header.magic == UINT32_MAX || header.magic == 0);
 }
 
-// Reads the header of a slot. Returns what the slot holds; Found::lost if its header or its CRC is invalid. A header
-// that cannot be read is 0 throughout.
-Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Header& header) {
-  if (!read(node, start, &header, sizeof header)) {
+// Reads a slot: its header and, with pass, its data. Returns what it holds; Found::lost if its header or its CRC is
+// invalid. A header that cannot be read is 0 throughout.
+Found read_slot(const Region& region, uint32_t start, Header& header, Pass& pass) {
+  if (!read(region, start, &header, sizeof header)) {
     header = {};
     return Found::lost;
   }
@@ -147,11 +172,12 @@ Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Heade
     return Found::blank;
   }
   const bool is_default = header.size == defaults;
-  if (header.magic != magic || header.version != record.version || (!is_default && header.size != record.size)) {
+  const uint32_t size = region.record.size;
+  if (header.magic != magic || header.version != region.record.version || (!is_default && header.size != size)) {
     return Found::lost;
   }
-  wire::Crc32 crc = crc_of(header, record);
-  if (!add_to_crc(node, start + header_size(node), is_default ? 0 : record.size, crc) || crc.value() != header.crc) {
+  wire::Crc32 crc = crc_of(header, region.record);
+  if (!add_to_crc(region, start + region.header, is_default ? 0 : size, crc, pass) || crc.value() != header.crc) {
     return Found::lost;
   }
   return is_default ? Found::defaults : Found::data;
@@ -165,31 +191,44 @@ bool is_newer(const Slot& slot, const Slot& other) {
   return is_whole(slot) && (!is_whole(other) || slot.header.generation - other.header.generation <= INT32_MAX);
 }
 
-// Both slots of a record, the newest valid one first.
-struct Slots {
-  Slots(const CO_NODE& node, const Record& record) : newest{record.start, {}, {}}, other{} {
-    other.start = record.start + slot_size(node, record.size);
-    newest.found = read_slot(node, record, newest.start, newest.header);
-    other.found = read_slot(node, record, other.start, other.header);
-    if (is_newer(other, newest)) {
-      const Slot first = newest;
-      newest = other;
-      other = first;
-    }
-  }
+Found read_again(const Region& region, const Slot& slot, Pass& pass) {
+  Header header;
+  return read_slot(region, slot.start, header, pass);
+}
 
-  Slot newest;
-  Slot other;
+// Both slots of a record.
+struct Slots {
+  explicit Slots(const Region& region) : slot{} {
+    uint32_t start = region.record.start;
+    for (Slot& each : slot) {
+      Pass none = {};
+      each.start = start;
+      each.found = read_slot(region, start, each.header, none);
+      start += region.slot;
+    }
+    first = is_newer(slot[1], slot[0]) ? 1 : 0;
+  }
+  [[nodiscard]] const Slot& newest() const { return slot[first]; }  // the newest valid one
+  [[nodiscard]] const Slot& other() const { return slot[first ^ 1U]; }
+
+  Slot slot[2];
+  unsigned first;
 };
+
+// Returns what both slots hold together.
+Found found_in(const Slots& slots) {
+  const bool blank = slots.newest().found == Found::blank && slots.other().found == Found::blank;
+  return blank || is_whole(slots.newest()) ? slots.newest().found : Found::lost;
+}
 
 // Returns whether the other slot is damaged and was written after the newest valid one, so that its data are lost. A
 // slot whose store was interrupted by a power failure does not count: its header is erased (Found::blank), or still
 // that of its previous record, whose generation is one lower than that of the newest valid slot. A header that cannot
 // be read does count.
 bool is_newest_damaged(const Slots& slots) {
-  const bool is_unread = slots.other.header.magic == 0;
-  return slots.other.found == Found::lost &&
-         (is_unread || slots.newest.header.generation - slots.other.header.generation != 1);
+  const Header& header = slots.other().header;
+  const bool is_unread = header.magic == 0;
+  return slots.other().found == Found::lost && (is_unread || slots.newest().header.generation - header.generation != 1);
 }
 
 // The slot that held the newest record of a group when it was loaded or saved last (CO_NODE.ParaNewest): it is not
@@ -217,65 +256,25 @@ void remember(CO_NODE& node, const Record& record, const Slot& slot) {
 bool is_hidden(CO_NODE& node, const Record& record, const Slots& slots) {
   const Remembered at(node, record);
   const unsigned number = unsigned{at.byte} >> at.shift & 3U;
-  const bool is_first = slots.newest.start == record.start;
-  return number != 0 && !is_whole(is_first == (number == 1) ? slots.newest : slots.other);
+  return number != 0 && !is_whole(slots.slot[number - 1]);
 }
 
-// Copies the first size bytes to the memory of the application, with the node lock held, and checks the CRC of all
-// data. Returns false if they cannot be read or are invalid.
-bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to, uint32_t size) {
-  const uint32_t start = slot.start + header_size(node);
-  wire::Crc32 crc = crc_of(slot.header, record);
-  if (port::nvm_read(node, start, to, size) != size) {
-    return false;
-  }
-  crc.add(to, size);
-  return add_to_crc(node, start + size, record.size - size, crc) && crc.value() == slot.header.crc;
-}
-
-// Copies the first size bytes of a slot's data, if it holds data, to the memory of the application. Returns false if
-// the slot holds neither valid data nor the request for default values.
-bool load_slot(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to, uint32_t size) {
-  return slot.found == Found::defaults || (slot.found == Found::data && copy(node, record, slot, to, size));
-}
-
-bool is_equal(const CO_NODE& node, uint32_t start, const uint8_t* data, uint32_t size) {
-  Buffer buffer(node);
-  while (size != 0) {
-    const uint32_t piece = size < buffer.size() ? size : buffer.size();
-    if (!read(node, start, buffer.bytes(), piece) || !is_same(buffer.bytes(), data, piece)) {
-      return false;
-    }
-    start += piece;
-    data += piece;
-    size -= piece;
-  }
-  return true;
-}
-
-bool is_stored(const CO_NODE& node, const Record& record, const Slot& slot, const uint8_t* data) {
-  if (data == nullptr) {
-    return slot.found == Found::defaults;
-  }
-  return slot.found == Found::data && is_equal(node, slot.start + header_size(node), data, record.size);
-}
-
-bool program(const CO_NODE& node, uint32_t start, uint8_t* bytes, uint32_t size) {
-  const Outside outside(node);
-  return port::nvm_write(node, start, bytes, size) == size;
+bool program(const Region& region, uint32_t start, uint8_t* bytes, uint32_t size) {
+  const Outside outside(region.node);
+  return port::nvm_write(region.node, start, bytes, size) == size;
 }
 
 // Writes bytes and fills the last program unit up. The application may change the bytes during the call, so the CRC is
 // calculated from the bytes that are written.
-bool write(const CO_NODE& node, uint32_t start, const uint8_t* bytes, uint32_t size, wire::Crc32& crc) {
-  Buffer buffer(node);
+bool write(const Region& region, uint32_t start, const uint8_t* bytes, uint32_t size, wire::Crc32& crc) {
+  Buffer buffer(region);
   while (size != 0) {
-    const uint32_t piece = size < buffer.size() ? size : buffer.size();
-    const uint32_t whole = round_up(piece, program_size(node));
+    const uint32_t piece = buffer.piece_of(size);
+    const uint32_t whole = round_up(piece, region.program);
     __builtin_memcpy(buffer.bytes(), bytes, piece);
     __builtin_memset(buffer.bytes() + piece, erased, whole - piece);
     crc.add(buffer.bytes(), piece);
-    if (!program(node, start, buffer.bytes(), whole)) {
+    if (!program(region, start, buffer.bytes(), whole)) {
       return false;
     }
     start += piece;
@@ -285,46 +284,107 @@ bool write(const CO_NODE& node, uint32_t start, const uint8_t* bytes, uint32_t s
   return true;
 }
 
-bool erase(const CO_NODE& node, uint32_t start, uint32_t size) {
-  const Outside outside(node);
-  return port::nvm_shape(node).EraseSize == 0 || port::nvm_erase(node, start, size);
+bool erase(const Region& region, uint32_t start) {
+  const Outside outside(region.node);
+  return region.shape.EraseSize == 0 || port::nvm_erase(region.node, start, region.slot);
 }
 
-// Writes a slot, its header last: the slot is invalid until the header is written.
-bool write_slot(const CO_NODE& node, const Record& record, Slot& slot, const uint8_t* data) {
-  CO_ASSERT(slot.start % unit(node) == 0);
-  CO_ASSERT(slot.start - record.start <= slot_size(node, record.size));
-  wire::Crc32 crc = crc_of(slot.header, record);
+// Writes a slot, its header last: the slot is invalid until the header is written. data: null for the defaults
+bool write_slot(const Region& region, uint32_t start, Header& header, const uint8_t* data) {
+  CO_ASSERT(start % region.unit == 0 && start - region.record.start <= region.slot);
+  wire::Crc32 crc = crc_of(header, region.record);
   wire::Crc32 unused;
-  if (!erase(node, slot.start, slot_size(node, record.size))) {
+  if (!erase(region, start) ||
+      !write(region, start + region.header, data, data == nullptr ? 0 : region.record.size, crc)) {
     return false;
   }
-  if (data != nullptr && !write(node, slot.start + header_size(node), data, record.size, crc)) {
-    return false;
-  }
-  slot.header.crc = crc.value();
-  return write(node, slot.start, reinterpret_cast<const uint8_t*>(&slot.header), sizeof slot.header, unused);
+  header.crc = crc.value();
+  return write(region, start, reinterpret_cast<const uint8_t*>(&header), sizeof header, unused);
 }
 
 // Writes the slot that does not hold the newest valid record. data: null for the defaults. The generation is one higher
 // than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both. Reads both slots again
 // afterwards: if the remaining slot could not be read before, its record may be the newer one.
-CO_ERR write_record(CO_NODE& node, const Record& record, const Slots& slots, const uint8_t* data) {
-  const bool has_record = is_whole(slots.newest);
-  const Slot& target = has_record ? slots.other : slots.newest;
-  const uint32_t generation = (has_record ? slots.newest : slots.other).header.generation + 1;
-  Slot slot = {target.start, {magic, record.version, data == nullptr ? defaults : record.size, generation, 0}, {}};
-  if (!write_slot(node, record, slot, data)) {
+CO_ERR write_record(CO_NODE& node, const Region& region, const Slots& slots, const uint8_t* data) {
+  const bool has_record = is_whole(slots.newest());
+  const uint32_t start = (has_record ? slots.other() : slots.newest()).start;
+  const uint32_t generation = (has_record ? slots.newest() : slots.other()).header.generation + 1;
+  const Record& record = region.record;
+  Header header = {magic, record.version, data == nullptr ? defaults : record.size, generation, 0};
+  if (!write_slot(region, start, header, data)) {
     return CO_ERR_IF_NVM_WRITE;
   }
-  const Slot newest = Slots(node, record).newest;
-  const bool is_loaded_next = newest.start == slot.start && is_whole(newest) && newest.header.crc == slot.header.crc &&
+  const Slots after(region);
+  const Slot& newest = after.newest();
+  const bool is_loaded_next = newest.start == start && is_whole(newest) && newest.header.crc == header.crc &&
                               newest.header.generation == generation;
   if (!is_loaded_next) {
     return CO_ERR_IF_NVM_WRITE;
   }
   remember(node, record, newest);
   return CO_ERR_NONE;
+}
+
+// Returns whether the record fits into the memory. Also requires that the erase size is a multiple of the program size.
+// The first condition limits all sizes to half the capacity, so that no later sum exceeds 32 bits.
+bool fits(const Region& region) {
+  const CO_NVM_SHAPE& shape = region.shape;
+  const uint32_t half = shape.Capacity / 2;
+  if (region.program > CO_STORE_BUFFER || shape.EraseSize % region.program != 0 || shape.EraseSize > half ||
+      region.record.size > half) {
+    return false;
+  }
+  const uint32_t start = region.record.start;
+  return region.slot <= half && start <= shape.Capacity - 2 * region.slot && start % region.unit == 0;
+}
+
+uint32_t space(const CO_NODE& node, uint32_t size) {
+  const Record record = {0, size, 0, 0};
+  return 2 * Region(node, record).slot;
+}
+
+Found find(const CO_NODE& node, const Record& record) {
+  const Region region(node, record);
+  return fits(region) ? found_in(Slots(region)) : Found::no_place;
+}
+
+// Loads the newest valid slot, or the other one if the memory then returns other bytes.
+Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
+  CO_ASSERT(size <= record.size);
+  const Region region(node, record);
+  if (!fits(region)) {
+    return {Found::no_place, false};
+  }
+  const Slots slots(region);
+  bool is_older = is_newest_damaged(slots);
+  for (unsigned n = 0; n < 2; ++n) {
+    const Slot& slot = slots.slot[slots.first ^ n];
+    Pass copy = {to, size, nullptr, false};
+    if (is_whole(slot) && read_again(region, slot, copy) == slot.found) {
+      remember(node, record, slot);
+      return {slot.found, is_older};
+    }
+    is_older = true;
+  }
+  remember(node, record, slots.newest());
+  return {found_in(slots) == Found::blank ? Found::blank : Found::lost, false};
+}
+
+CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
+  const Region region(node, record);
+  if (!fits(region)) {
+    return CO_ERR_PARA_STORE;
+  }
+  const Slots slots(region);
+  const Found wanted = data == nullptr ? Found::defaults : Found::data;
+  Pass compare = {nullptr, 0, data, false};
+  if (slots.newest().found == wanted && read_again(region, slots.newest(), compare) == wanted && !compare.differs) {
+    return CO_ERR_NONE;
+  }
+  if (is_hidden(node, record, slots)) {
+    return CO_ERR_IF_NVM_WRITE;
+  }
+  return budget::take_store(node) ? write_record(node, region, slots, data) : CO_ERR_OBJ_STATE;
 }
 
 }  // namespace
@@ -335,61 +395,6 @@ bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
     ++n;
   }
   return n == num;
-}
-
-uint32_t space(const CO_NODE& node, uint32_t size) { return 2 * slot_size(node, size); }
-
-// Also requires that the erase size is a multiple of the program size. The first condition limits all sizes to half the
-// capacity, so that no later sum exceeds 32 bits.
-bool fits(const CO_NODE& node, const Record& record) {
-  const CO_NVM_SHAPE shape = port::nvm_shape(node);
-  const uint32_t half = shape.Capacity / 2;
-  const uint32_t program = program_size(node);
-  if (program > CO_STORE_BUFFER || shape.EraseSize % program != 0 || shape.EraseSize > half || record.size > half) {
-    return false;
-  }
-  const uint32_t slot = slot_size(node, record.size);
-  return slot <= half && record.start <= shape.Capacity - 2 * slot && record.start % unit(node) == 0;
-}
-
-Found find(const CO_NODE& node, const Record& record) {
-  if (!fits(node, record)) {
-    return Found::no_place;
-  }
-  const Slots slots(node, record);
-  const bool blank = slots.newest.found == Found::blank && slots.other.found == Found::blank;
-  return blank || is_whole(slots.newest) ? slots.newest.found : Found::lost;
-}
-
-Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
-  CO_ASSERT(size <= record.size);
-  if (!fits(node, record)) {
-    return {Found::no_place, false};
-  }
-  const Slots slots(node, record);
-  remember(node, record, slots.newest);
-  if (load_slot(node, record, slots.newest, to, size)) {
-    return {slots.newest.found, is_newest_damaged(slots)};
-  }
-  if (load_slot(node, record, slots.other, to, size)) {
-    remember(node, record, slots.other);
-    return {slots.other.found, true};
-  }
-  return {slots.newest.found == Found::blank && slots.other.found == Found::blank ? Found::blank : Found::lost, false};
-}
-
-CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
-  if (!fits(node, record)) {
-    return CO_ERR_PARA_STORE;
-  }
-  const Slots slots(node, record);
-  if (is_stored(node, record, slots.newest, data)) {
-    return CO_ERR_NONE;
-  }
-  if (is_hidden(node, record, slots)) {
-    return CO_ERR_IF_NVM_WRITE;
-  }
-  return budget::take_store(node) ? write_record(node, record, slots, data) : CO_ERR_OBJ_STATE;
 }
 
 const CO_STORE_T store = {space, find, load, save};
