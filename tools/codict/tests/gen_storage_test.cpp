@@ -213,7 +213,7 @@ TEST_CASE(
 }
 
 TEST_CASE("gen: a sub-object of a stored object is kept in RAM if an XDD says so, also after a conversion to EDS") {
-  // An EDS of CANopenEditor says RAM at each sub-object without a group of its own.
+  // An EDS of CANopenEditor says RAM at each sub-object that names no group.
   CHECK(generate(test::fixture_text("gen/storage.eds")).has("(CO_DATA)(&small_persist_app.od_2001_1)"));
   std::string text = test::fixture_text("gen/storage.xdd");
   const std::size_t parameter = text.find("<q1:parameter uniqueID=\"UID_SUB_200101\"");

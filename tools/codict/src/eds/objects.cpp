@@ -34,7 +34,7 @@ bool read_python_key(Entry& entry, const Key& key, const Reader& reader) {
   return true;
 }
 
-// Reads the keys that CANopenEditor stores in comments. It writes RAM at each sub-object without a group of its own.
+// Reads the keys that CANopenEditor stores in comments. It writes RAM at each sub-object that names no group.
 void read_hidden_keys(Entry& entry, const Section& section, bool is_sub, const Reader& reader) {
   const auto read = [&](std::string_view name, std::string_view what) {
     const std::optional<Key> key = comment_key(reader.document, section, name);

@@ -64,7 +64,7 @@ class Document {
   bool add_attribute(std::uint32_t at, std::string_view name, std::string_view text, Edits& edits) const;
   using Attributes = std::initializer_list<std::pair<std::string_view, std::string_view>>;
   /// Adds an element as the last child of another one, indented like its first child. `whole`: that of the parent,
-  /// which must not contain elements of its own name. Returns false if the parent has no end tag, too.
+  /// which must not contain elements of the same name. Returns false if the parent has no end tag, too.
   bool add_element(Span whole, std::string_view name, Attributes attributes, Edits& edits) const;
 
  private:
