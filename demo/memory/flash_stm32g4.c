@@ -22,14 +22,18 @@
 #define CR_LOCK (1u << 31)
 #define ECCR_DAMAGED ((1u << 31) | (1u << 29))  // ECCD, ECCD2: two wrong bits
 
+static volatile bool IsReading;
 static volatile bool IsDamaged;
 
-// Call this in NMI_Handler(): a double word that was programmed incompletely was read.
-void FlashStm32g4Nmi(void) {
-  if ((Load(FLASH_ECCR) & ECCR_DAMAGED) != 0) {
-    IsDamaged = true;
-    Store(FLASH_ECCR, Load(FLASH_ECCR) | ECCR_DAMAGED);
+// Call this in NMI_Handler(). Returns true if a double word of the parameters that was programmed incompletely was read.
+// Otherwise the program itself is damaged, or the NMI has another source.
+bool FlashStm32g4Nmi(void) {
+  if (!IsReading || (Load(FLASH_ECCR) & ECCR_DAMAGED) == 0) {
+    return false;
   }
+  IsDamaged = true;
+  Store(FLASH_ECCR, Load(FLASH_ECCR) | ECCR_DAMAGED);
+  return true;
 }
 
 static bool Begin(uint32_t control) {
@@ -90,8 +94,10 @@ static bool ProgramDoubleWord(void* ctx, uint32_t address, const void* unit) {
 static bool ReadBytes(void* ctx, uint32_t address, void* to, uint32_t size) {
   (void)ctx;
   IsDamaged = false;
+  IsReading = true;
   CopyBytes(address, (uint8_t*)to, size);
   Barrier();
+  IsReading = false;
   return !IsDamaged;
 }
 

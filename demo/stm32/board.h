@@ -37,6 +37,9 @@ bool BoardCanHasFrames(void);
 /// Handles the NMI. A board defines it if its memory needs it; the one of start.c stops the program.
 void NmiHandler(void);
 
+/* Stops the firmware. */
+void Fault(void);
+
 /// \name Interrupts, defined by main.c
 /// \{
 void CanHandler(void);

@@ -27,7 +27,7 @@ void BoardBlink(void) {
   }
 }
 
-static void Fault(void) {
+void Fault(void) {
   for (;;) {
   }
 }

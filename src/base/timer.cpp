@@ -379,11 +379,18 @@ Missing missing_call(CO_NODE& node) {
   const CO_TMR& t = node.Tmr;
   const Lock lock(t);
   const CO_TMR_MEM* const first = t.First;
+  if (first == nullptr) {
+    return Missing::nothing;
+  }
+  const uint32_t now = port::now(node);
   const bool is_due = t.Armed != &t.First;  // has_due() would no longer be inlined elsewhere
-  const uint32_t late = first == nullptr ? 0 : port::now(node) - first->At;
+  if (!is_due && now - t.Clock < first->At - t.Clock) {  // armed, and not late
+    return Missing::nothing;
+  }
   // The clock of a classic driver does not advance beyond an alarm that was not served.
-  const bool is_stuck = node.If.HasElapsed != nullptr && late == 0 && first != nullptr && !is_due;
-  if (late > INT32_MAX || (late <= t.Freq / 8 && !is_stuck)) {
+  const uint32_t late = now - first->At;
+  const bool is_stuck = node.If.HasElapsed != nullptr && late == 0 && !is_due;
+  if (late <= t.Freq / 8 && !is_stuck) {
     return Missing::nothing;
   }
   return is_due ? Missing::process : Missing::service;

@@ -54,7 +54,7 @@ bool has(CO_NODE& node, uint16_t index) { return CODictFind(&node.Dict, CO_DEV(i
 // Appends calls and settings that are missing in a node that has no error.
 void add_hints(Text& text, CO_NODE& node) {
   if (node.Nmt.Mode == CO_INVALID) {
-    text.add("; stopped by an earlier error (CO_INVALID)");
+    text.add("; stopped by CONodeStop() or an earlier error (CO_INVALID)");
     return;
   }
   if (node.Nmt.Mode == CO_INIT) {
@@ -95,6 +95,8 @@ extern "C" CO_ERR CONodeGetErrText(CO_NODE* node, char* text, uint32_t size) {
     out.add(COErrText(CO_ERR_NONE));
     if (node->Ext != nullptr) {
       co::error::add_hints(out, *node);
+    } else {
+      out.add("; CONodeInit() has not been called");
     }
     return CO_ERR_NONE;
   }

@@ -25,8 +25,9 @@ bool is_all(CO_NODE& node, const CO_OBJ& obj) {
   return CO_GET_SUB(obj.Key) == 1 && dict::read_number(node, CO_DEV(CO_GET_IDX(obj.Key), 0), sizeof(uint8_t), 0) > 1;
 }
 
-// Type of 1011h; otherwise of 1010h.
-bool is_restore(const CO_OBJ& obj) { return obj.Type == CO_TPARA_RESTORE; }
+// Returns whether the entry is one of 1011h; otherwise it is one of 1010h. A type of the application may call these
+// functions.
+bool is_restore(const CO_OBJ& obj) { return CO_GET_IDX(obj.Key) == restore_index; }
 
 // Executes "save" or "load" for a group. Null: only asks for the abilities of the groups.
 using Command = CO_ERR (*)(CO_NODE& node, const CO_PARA& group);

@@ -38,6 +38,23 @@ TEST_CASE("parameters: two groups of equal size whose offsets are exchanged do n
   node.ask("601#4000230200000000", "581#4300230214000000");
 }
 
+TEST_CASE("parameters: a type of the application that calls the functions of 1011h restores defaults") {
+  static const CO_OBJ_TYPE wrapped = {
+      COTParaRestore.Size, COTParaRestore.Init, COTParaRestore.Read,
+      [](CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
+        return COTParaRestore.Write(obj, node, buffer, size);
+      },
+      COTParaRestore.Reset};
+  GroupDevice device;
+  store_one_and_two(device);
+  Fixture node(device.setup().with({CO_KEY(0x1011, 3, CO_OBJ_____RW), &wrapped, GroupDevice::data(&device.second)}));
+  node.ask("601#2311100373617665", "581#8011100320000008");  // "save"
+  node.ask("601#231110036C6F6164", "581#6011100300000000");
+  node.rx("000#8101");
+  node.tx("701#00");
+  node.ask("601#4000230200000000", "581#4300230214000000");
+}
+
 TEST_CASE("parameters: a group does not load the record of another sub-index or another offset") {
   GroupDevice device;
   store_one_and_two(device);

@@ -82,6 +82,28 @@ TEST_CASE("synchronous RPDO: all frames of one SYNC are written in the order of 
   }
 }
 
+TEST_CASE("synchronous RPDO: a callback that leaves Operational does not suppress those of the other RPDOs") {
+  if (fixture_rpdos < 2) {
+    return;
+  }
+  SyncTable table;
+  for (unsigned n = 0; n < 2; ++n) {
+    table.rpdo[n].on(0x201 + n * 0x100, 1, {0x22010108, 0x22020010U | (n + 1) << 8});
+  }
+  SyncNode node(table);
+  node.start();
+  node.rx("201#112233");
+  node.rx("301#445566");
+  std::vector<CO_RPDO*> order;
+  callbacks().pdo_update = [&](CO_RPDO* pdo) {
+    order.push_back(pdo);
+    CONmtSetMode(&node->Nmt, CO_PREOP);
+  };
+  node.rx("080#");
+  CHECK(order == std::vector<CO_RPDO*>{&node->RPdo[0], &node->RPdo[1]});
+  CHECK(node.u16[1] == 0x6655);
+}
+
 TEST_CASE("synchronous RPDO: event-driven RPDOs in between are written at once") {
   if (fixture_rpdos < 2) {
     return;

@@ -109,7 +109,7 @@ TEST_CASE("CONodeGetErrText: without an error the text names missing calls and s
     const CO_MODE mode = node->Nmt.Mode;
     node->Nmt.Mode = CO_INVALID;
     CHECK(text_of(node.node, text) == CO_ERR_NONE);
-    CHECK(text == "no error; stopped by an earlier error (CO_INVALID)");
+    CHECK(text == "no error; stopped by CONodeStop() or an earlier error (CO_INVALID)");
     node->Nmt.Mode = mode;
   }
   SUBCASE("COTmrService() and COTmrProcess()") {
@@ -127,6 +127,19 @@ TEST_CASE("CONodeGetErrText: without an error the text names missing calls and s
     node.tx("701#7F");
     CHECK(text_of(node.node, text) == CO_ERR_NONE);
     CHECK(text == "no error");
+  }
+  SUBCASE("COTmrService(), not for a timer far in the future") {
+    Fixture node;
+    CHECK(COTmrCreate(&node->Tmr, 0x90000000, 0, [](void*) {}, nullptr) >= 0);
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text == "no error");
+  }
+  SUBCASE("COTmrService(), for weeks") {
+    Fixture node;
+    CHECK(COTmrCreate(&node->Tmr, 10, 0, [](void*) {}, nullptr) >= 0);
+    node.idle(2147484s);
+    CHECK(text_of(node.node, text) == CO_ERR_NONE);
+    CHECK(text == "no error; a timer has elapsed, and COTmrService() has not been called since");
   }
   SUBCASE("COTmrService(), with a classic driver") {
     PlainNode node(false);

@@ -80,7 +80,11 @@ void BoardStart(void) {
 void BoardLed(bool on) { BOARD_REGISTER(GPIOA_BSRR) = on ? 1u << 5 : 1u << 21; }
 
 // A double word of the flash whose programming a loss of power has interrupted was read.
-void NmiHandler(void) { FlashStm32g4Nmi(); }
+void NmiHandler(void) {
+  if (!FlashStm32g4Nmi()) {
+    Fault();
+  }
+}
 
 void BoardCanInterrupt(void) { COCanFdcanInterrupt(&Can); }
 

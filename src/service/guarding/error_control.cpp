@@ -14,7 +14,9 @@ void init(CO_NODE& node) {
 }
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM&, uint16_t) {
-  error::report(node, CO_ERR_NODE_ID_TWICE);
+  if (node.Error == CO_ERR_NONE) {  // the bus does not replace an error that was not read yet
+    error::report(node, CO_ERR_NODE_ID_TWICE);
+  }
   event::raise(node, event::Fault::collision, node.NodeId);
   return false;
 }

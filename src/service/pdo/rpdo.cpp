@@ -71,7 +71,6 @@ void write_stored(CO_NODE& node, CO_RPDO& pdo) {
 
 void forget_stored(CO_NODE& node) { __builtin_memset(node.RPdoFresh, 0, sizeof node.RPdoFresh); }
 
-unsigned next_fresh(const CO_NODE& node, unsigned from) { return bits::next(node.RPdoFresh, from, CO_RPDO_N); }
 
 // Processes a frame. Callbacks may end Operational or change the PDO. Returns false if the frame is too short.
 [[gnu::noinline]] bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
@@ -186,15 +185,16 @@ void apply(CO_NODE& node) {
   }
   {
     const Lock lock(node);
-    for (unsigned n = next_fresh(node, 0); n != CO_RPDO_N; n = next_fresh(node, n + 1)) {
+    for (unsigned n = 0; (n = bits::next(node.RPdoFresh, n, CO_RPDO_N)) != CO_RPDO_N; ++n) {
       write_stored(node, node.RPdo[n]);
     }
   }
-  for (unsigned n = next_fresh(node, 0); n != CO_RPDO_N; n = next_fresh(node, n + 1)) {
-    CO_RPDO& pdo = node.RPdo[n];
-    bits::remove(node.RPdoFresh, n);
-    callback::update_pdo_at_sync(node, pdo);
-    callback::update_pdo(node, pdo);
+  decltype(node.RPdoFresh) written;  // a callback may leave Operational, which empties the set
+  __builtin_memcpy(written, node.RPdoFresh, sizeof written);
+  forget_stored(node);
+  for (unsigned n = 0; (n = bits::next(written, n, CO_RPDO_N)) != CO_RPDO_N; ++n) {
+    callback::update_pdo_at_sync(node, node.RPdo[n]);
+    callback::update_pdo(node, node.RPdo[n]);
   }
 }
 
