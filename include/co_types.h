@@ -83,4 +83,23 @@ void CONodeFatalError(void);
 }
 #endif
 
+#ifdef __cplusplus
+/// \cond internal
+extern "C++" {
+namespace co {
+template <bool condition>
+struct RequiredIf;
+template <>
+struct RequiredIf<true> {
+  char size;
+};
+}  // namespace co
+}
+/// \endcond
+/// 1 if a constant condition is true; otherwise, or if it is no constant, the program does not compile.
+#define CO_REQUIRED(condition) ((uint32_t)sizeof(co::RequiredIf<(condition)>))
+#else
+#define CO_REQUIRED(condition) ((uint32_t)(sizeof(struct { int required : (condition) ? 1 : -1; }) / sizeof(int)))
+#endif
+
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// expect: negative
+// expect: RequiredIf
 // expect: CO_CAN_FDCAN_RATE_OF
 // 170 MHz is not a multiple of 800 kbit/s with any number of quanta.
 #include "../../drivers/can/fdcan/co_can_fdcan.h"

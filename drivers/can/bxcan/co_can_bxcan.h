@@ -79,10 +79,10 @@ typedef struct CO_CAN_BXCAN_RATE_T {
 /// \{
 
 /// Initialises a CO_CAN_BXCAN_RATE; the sample point is as near to 87.5 % as these quanta allow.
-/// Does not compile (array with negative size) if the macro …_FITS() for the same values is false.
+/// Does not compile if the macro …_FITS() for the same values is false, or no constant.
 #define CO_CAN_BXCAN_RATE_OF(clock, baud, quanta)                                                           \
   {                                                                                                         \
-    (baud) * (uint32_t)sizeof(char[CO_CAN_BXCAN_RATE_FITS(clock, baud, quanta) ? 1 : -1]),                  \
+    (baud) * CO_REQUIRED(CO_CAN_BXCAN_RATE_FITS(clock, baud, quanta)),                                      \
         ((CO_CAN_BXCAN_SEGMENT2(quanta) - 1u) << 24) | ((CO_CAN_BXCAN_SEGMENT2(quanta) - 1u) << 20) |       \
             ((CO_CAN_BXCAN_SEGMENT1(quanta) - 1u) << 16) | ((uint32_t)((clock) / ((baud) * (quanta))) - 1u) \
   }

@@ -97,10 +97,10 @@ typedef struct CO_CAN_MCP2515_RATE_T {
 /// \{
 
 /// Initialises a CO_CAN_MCP2515_RATE; the sample point is as near to 87.5 % as these quanta allow.
-/// Does not compile (array with negative size) if the macro …_FITS() for the same values is false.
+/// Does not compile if the macro …_FITS() for the same values is false, or no constant.
 #define CO_CAN_MCP2515_RATE_OF(clock, baud, quanta)                                                              \
   {                                                                                                              \
-    (baud) * (uint32_t)sizeof(char[CO_CAN_MCP2515_RATE_FITS(clock, baud, quanta) ? 1 : -1]),                     \
+    (baud) * CO_REQUIRED(CO_CAN_MCP2515_RATE_FITS(clock, baud, quanta)),                                         \
         CO_CAN_MCP2515_TIMING((clock) / (2u * (baud) * (quanta)), (quanta)-1u - CO_CAN_MCP2515_SEGMENT2(quanta), \
                               CO_CAN_MCP2515_SEGMENT2(quanta), CO_CAN_MCP2515_SEGMENT2(quanta) - 1u)             \
   }

@@ -74,11 +74,11 @@ extern const CO_SJA1000_ACCESS Sja1000Memory;
 /// \{
 
 /// Initialises a CO_CAN_SJA1000_RATE; the sample point is as near to 87.5 % as these quanta allow.
-/// Does not compile (array with negative size) if the macro …_FITS() for the same values is false.
-#define CO_CAN_SJA1000_RATE_OF(clock, baud, quanta)                                          \
-  {                                                                                          \
-    (baud) * (uint32_t)sizeof(char[CO_CAN_SJA1000_RATE_FITS(clock, baud, quanta) ? 1 : -1]), \
-        CO_CAN_SJA1000_TIMING(clock, baud, quanta, CO_SJA1000_BTR0_SJW_SHIFT)                \
+/// Does not compile if the macro …_FITS() for the same values is false, or no constant.
+#define CO_CAN_SJA1000_RATE_OF(clock, baud, quanta)                           \
+  {                                                                           \
+    (baud) * CO_REQUIRED(CO_CAN_SJA1000_RATE_FITS(clock, baud, quanta)),      \
+        CO_CAN_SJA1000_TIMING(clock, baud, quanta, CO_SJA1000_BTR0_SJW_SHIFT) \
   }
 /// True if this timing is exact, its sample point is allowed by CiA 301, and the controller supports it.
 #define CO_CAN_SJA1000_RATE_FITS(clock, baud, quanta) CO_CAN_SJA1000_FITS(clock, baud, quanta, 64)

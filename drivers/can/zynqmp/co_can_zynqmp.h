@@ -66,10 +66,10 @@ typedef struct CO_CAN_ZYNQMP_RATE_T {
 /// \{
 
 /// Initialises a CO_CAN_ZYNQMP_RATE. The sample point is as near to 87.5 % as these quanta allow.
-/// Does not compile (array with negative size) if the macro …_FITS() for the same values is false.
+/// Does not compile if the macro …_FITS() for the same values is false, or no constant.
 #define CO_CAN_ZYNQMP_RATE_OF(clock, baud, quanta)                                                               \
   {                                                                                                              \
-    (baud) * (uint32_t)sizeof(char[CO_CAN_ZYNQMP_RATE_FITS(clock, baud, quanta) ? 1 : -1]),                      \
+    (baud) * CO_REQUIRED(CO_CAN_ZYNQMP_RATE_FITS(clock, baud, quanta)),                                          \
         (uint16_t)((clock) / ((baud) * (quanta)) - 1u),                                                          \
         (uint16_t)(((CO_CAN_ZYNQMP_SEGMENT2(quanta) - 1u) << 7) | ((CO_CAN_ZYNQMP_SEGMENT2(quanta) - 1u) << 4) | \
                    (CO_CAN_ZYNQMP_SEGMENT1(quanta) - 1u))                                                        \
