@@ -18,7 +18,7 @@ int main(int count, char** arguments) {
   drivers.Nvm = &COFileNvmDriver;
   drivers.NvmCtx = memory;
   if (count != 3) {
-    fprintf(stderr, "heater INTERFACE NODE-ID\n");
+    fprintf(stderr, "usage: heater INTERFACE NODE-ID\n");
     return 2;
   }
   if (!COSocketCanOpen(can, arguments[1])) {

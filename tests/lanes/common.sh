@@ -244,7 +244,8 @@ copy_sources() {
 run_pages() {
   local commands=$results/$lane_name.commands
   [ -n "${1:-}" ] || copy_sources
-  python3 "$root/tests/system/commands.py" "$root" "$lane_name" >"$commands"
+  python3 "$root/tests/system/commands.py" "$root" "$lane_name" >"$commands" && [ -s "$commands" ] ||
+    { fail "no page has commands for this lane"; return; }
   run_tap env HOME="$results/pages-$lane_name/home" CFLAGS=-Werror CXXFLAGS=-Werror sh "$root/tests/system/commands.sh" \
     "$commands" "${1:-$copy}"
 }

@@ -16,6 +16,7 @@ import sys
 BLOCK = re.compile(r"(?:^[ ]*<!-- run by (?P<lane>\w+) -->\n)?^(?P<indent>[ ]*)```(?P<language>\S*)\n(?P<text>.*?)^(?P=indent)```$",
                    re.MULTILINE | re.DOTALL)
 SHELLS = ("sh", "bash", "shell", "console")
+HIDES_FAILURE = re.compile(r"(?<![|])[|](?![|])|;")
 ENDLESS = re.compile(r"&$|^candump |^demo/run .*--serve")
 
 
@@ -60,6 +61,8 @@ def check(root):
             if command not in exceptions:
                 if lane is None:
                     fault = "no lane runs it: write <!-- run by LANE --> above its block, or add it to commands_not_run.txt"
+                elif HIDES_FAILURE.search(command):
+                    fault = "a pipe or a semicolon hides the failure of a command: write two lines"
                 elif not runs_pages(root, lane):
                     fault = f"lane {lane} does not run the commands of pages (run_pages)"
             verdicts.append((f"{page}: {command}", fault))

@@ -32,13 +32,17 @@ start() {  # PAGE COMMAND
   (eval "exec ${2%&}") </dev/null >"$log.started" 2>&1 &
   started="$started $!"
   sleep 2
-  kill -0 $! 2>"$log"
-  verdict $? "$1" "$2"
+  kill -0 $! 2>/dev/null
+  status=$?
+  cp "$log.started" "$log"
+  verdict $status "$1" "$2"
 }
 
+# Stops the started programs; one that has ended before is a failure.
 stop() {
-  # shellcheck disable=SC2086 # several processes
-  [ -z "$started" ] || kill $started 2>/dev/null
+  for process in $started; do
+    kill "$process" 2>"$log" || verdict 1 "started program" "ended before it was stopped"
+  done
   started=
 }
 

@@ -50,10 +50,11 @@ TEST_CASE("EDS: a section whose name is a word of the letters A to F is an objec
     CHECK(written.find(std::string(name) + "\r\nText=Of another tool\r\n") != std::string::npos);
   }
   Findings findings;
-  const eds::Document document(Source("word.eds", "[FACE]\nParameterName=x\nDataType=5\n[BAD]\nReason=x\n"), findings);
+  const eds::Document document(
+      Source("word.eds", "[FACE]\nParameterName=x\nDataType=5\n[BAD]\nReason=x\n[DEAD]\nDefaultValue=1\n"), findings);
   const Description description = eds::read(document, findings);
   CHECK(description.devices.front().find(0xFACE)->data_type.value == type_code::unsigned8);
-  CHECK(description.devices.front().objects.size() == 1);
+  CHECK(description.devices.front().objects.size() == 2);
 }
 
 TEST_CASE("EDS: text after a section name is ignored") {

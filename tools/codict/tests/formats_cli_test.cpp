@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -365,6 +366,14 @@ TEST_CASE("codict set: properties of CANopenNode are set in an XDD, and in comme
   CHECK(run("convert " + eds + " -o " + xdd).status == 0);
   std::string changed = bytes_of(xdd);
   CHECK(has(changed, "<co:property name=\"CO_flagsPDO\" value=\"true\"/>"));
+  {
+    const std::string commented = directory / "commented.xdd";
+    std::string bytes = changed;
+    bytes.insert(bytes.find("</co:parameter>", bytes.find("\"UID_OBJ_1017\"")), "<!-- </co:parameter> -->");
+    std::ofstream(commented, std::ios::binary) << bytes;
+    CHECK(run("set " + commented + " 1017 CO_extensionIO=true").status == 0);
+    CHECK(run("get " + commented + " 1017 CO_extensionIO").out == "true\n");
+  }
   const std::size_t begin = changed.find("</co:parameter>", changed.find("\"UID_OBJ_1017\""));
   const std::size_t line = changed.rfind('\n', begin);
   const std::string indent = changed.substr(line, begin - line) + "  ";
@@ -465,6 +474,8 @@ TEST_CASE("codict set: two values for one field, and more than one line, are ref
   const std::string eds = copy_to(directory, "drive.eds");
   CHECK(run("set " + eds + " 1017 default=1 DefaultValue=2").err ==
         "codict: " + eds + ": two values for one field: DefaultValue=2\n");
+  CHECK(run("set " + eds + " 1017 default=1 1017 default=2").err ==
+        "codict: " + eds + ": target given twice: 1017; write its fields behind the first\n");
   const std::string dcf = copy_to(directory, "compact.dcf");
   CHECK(run("set " + dcf + " 2000:3 \"value=5\n[2001]\nDownloadFile=x\"").status == 2);
   CHECK(run("merge " + dcf + " -o - --set \"2001.ParamRefd=5\n[2002]\"").status == 2);

@@ -137,12 +137,14 @@ TEST_CASE("network: faults in a plan of ROS 2 are reported once, and nodes may b
       "1:22: net-key-ros: key \"driver\" has no effect here, only in ROS 2 (1 place) "
       "(remove it if the plan is not for ROS 2)\n";
   CHECK(found(ros + "nodes:\n  - a: {dcf: x}\n  - b: {dcf: x, node_di: 2}\n") ==
-        driver +
-            "4:17: net-key-ros: key \"node_di\" has no effect here, only in ROS 2 (1 place) (did you mean node_id?)\n");
+        "4:17: net-key: unknown key \"node_di\" in b (did you mean node_id?)\n" + driver);
   CHECK(found(ros + "defaults: {boot: maybe}\nnodes: {a: {node_id: 2}, b: {node_id: 3}}\n") ==
         "2:18: net-value: invalid defaults.boot: \"maybe\" (write true or false)\n");
   CHECK(found(ros + "nodes: {a: {dcf: x}}\na: {dcf: x}\n") ==
         "3:1: net-value: duplicate name of a node: \"a\" (rename one of them)\n" + driver);
+  CHECK(found(ros + "nodes: {Master: {dcf: x}}\n").find("duplicate name of a node: \"Master\"") != std::string::npos);
+  CHECK(found(ros + "nodes: {a: {dcf: x}, A: {dcf: x}}\n").find("duplicate name of a node: \"A\"") !=
+        std::string::npos);
   CHECK(found(ros + "nodes: 1\n") == "2:8: net-value: invalid nodes: \"1\" (write a map)\n" + driver);
   CHECK(found(ros + "a: {dcf: x, tpdo: {1: {period: 1}}}\n").find("net-key: unknown key \"period\" in a.tpdo.1") !=
         std::string::npos);

@@ -177,6 +177,18 @@ bool has_fields_once(const Change& change, std::string& why) {
   return true;
 }
 
+// Returns false, with the reason, if a target is given twice: its fields belong together.
+bool has_targets_once(const std::vector<Change>& changes, std::string& why) {
+  for (auto change = changes.begin(); change != changes.end(); ++change) {
+    const auto is_same = [change](const Change& other) { return equal_ignoring_case(other.target, change->target); };
+    if (std::any_of(changes.begin(), change, is_same)) {
+      why = "target given twice: " + change->target + "; write its fields behind the first";
+      return false;
+    }
+  }
+  return true;
+}
+
 // Parses the changes. A word without "=" is a target. On failure, why is the reason.
 bool parse_changes(const std::vector<std::string>& words, std::vector<Change>& changes, std::string& why) {
   for (const std::string& word : words) {
@@ -191,7 +203,7 @@ bool parse_changes(const std::vector<std::string>& words, std::vector<Change>& c
     }
   }
   why = "no field=value for " + changes.back().target;
-  return !changes.back().assignments.empty() &&
+  return !changes.back().assignments.empty() && has_targets_once(changes, why) &&
          std::all_of(changes.begin(), changes.end(), [&why](const Change& each) { return has_fields_once(each, why); });
 }
 

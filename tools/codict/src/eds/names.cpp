@@ -167,8 +167,10 @@ bool may_be_word(std::string_view name) {
 }
 
 bool is_key_of_object(std::string_view key) {
-  return compare_names(key, "ObjectType") == 0 || compare_names(key, "DataType") == 0 ||
-         compare_names(key, "ParameterName") == 0;
+  constexpr std::string_view keys[] = {"ObjectType",   "DataType",       "ParameterName", "AccessType",
+                                       "DefaultValue", "ParameterValue", "SubNumber"};
+  return std::any_of(std::begin(keys), std::end(keys),
+                     [key](std::string_view each) { return compare_names(key, each) == 0; });
 }
 
 SectionName section_name(const Document& document, const Section& section) {

@@ -33,7 +33,6 @@ using Keys = std::vector<Key>;
 struct RosKey {
   Span first;
   std::set<std::uint32_t> places;
-  std::string hint;
 };
 
 constexpr std::size_t longest_shown = 40;
@@ -123,11 +122,10 @@ class Reader {
       names.push_back(key.name);
     }
     const std::vector<std::string_view> near = similar(name.text, names);
-    if (is_of_ros_ && path.find('.') == std::string_view::npos) {  // drivers define further keys of sections and nodes
-      RosKey& key = ros_keys_.try_emplace(name.text, RosKey{name.span, {}, {}}).first->second;
+    // Drivers define further keys of sections and nodes; one that resembles a key of the plan is misspelt.
+    if (is_of_ros_ && path.find('.') == std::string_view::npos && near.empty()) {
+      RosKey& key = ros_keys_.try_emplace(name.text, RosKey{name.span, {}}).first->second;
       key.places.insert(name.span.begin);
-      key.hint = near.empty() ? "remove it if the plan is not for ROS 2"
-                              : fmt::format("did you mean {}?", fmt::join(near, ", "));
       return;
     }
     findings_.add(rules::key, name.span, fmt::format("unknown key {} in {}", shown(name), path),
@@ -431,8 +429,11 @@ void Reader::read_node(const Node& name, const Node& node, Plan& plan) {
   if (name.text.substr(0, 1) == "." || !has_name(name)) {  // .name: a disabled section
     return;
   }
-  const bool is_double = std::any_of(plan.slaves.begin(), plan.slaves.end(),
-                                     [&name](const PlannedSlave& slave) { return slave.name == name.text; });
+  // Files are named after the nodes, and some file systems do not distinguish capitals.
+  const auto is_name = [&name](std::string_view other) { return equal_ignoring_case(other, name.text); };
+  const bool is_double =
+      is_name("master") || std::any_of(plan.slaves.begin(), plan.slaves.end(),
+                                       [&](const PlannedSlave& slave) { return is_name(slave.name); });
   if (is_double) {
     findings_.add(rules::value, name.span, fmt::format("duplicate name of a node: {}", shown(name)),
                   "rename one of them");
@@ -474,7 +475,7 @@ void Reader::report_ros(const Plan& plan) {
     findings_.add(rules::key_ros, key.first,
                   fmt::format("key \"{}\" has no effect here, only in ROS 2 ({} place{})", shortened(name),
                               key.places.size(), key.places.size() == 1 ? "" : "s"),
-                  key.hint);
+                  "remove it if the plan is not for ROS 2");
   }
 }
 

@@ -36,11 +36,12 @@ if(LEXICAN_CODICT)
     OUTPUT_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/generated@FORCED@)
 else()
   # Without codict, the generated files are compiled as they are; they do not follow changes of the description.
+  message(STATUS "no codict was found (PATH, -DLEXICAN_CODICT=FILE): changes of @DESCRIPTION@ have no effect")
   target_sources(@NAME@_device PRIVATE generated/@DICT@_od.@EXT@)
   target_include_directories(@NAME@_device PUBLIC generated)
 endif()
 
-# The program, on a simulated bus. An installed Lexican has no drivers: give -DLEXICAN=DIRECTORY for this part.
+# The program, on a simulated bus.
 enable_testing()
 if(TARGET lexican::lexican_can_virtual)
   add_executable(@NAME@_node main.@EXT@)
@@ -150,7 +151,7 @@ build/@NAME@_node        # prints the frames: boot-up@TPDO_WORDS@
 ctest --test-dir build   # runs it as a test
 ```
 
-With an installed Lexican (`find_package`), leave `-DLEXICAN` out; it has no drivers, so only the dictionary is built.
+With an installed Lexican, replace `-DLEXICAN=…` by `-DCMAKE_PREFIX_PATH=` and the directory of the installation.
 
 | File | Content |
 |---|---|

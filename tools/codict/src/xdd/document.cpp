@@ -328,12 +328,35 @@ bool Document::add_attribute(std::uint32_t at, std::string_view name, std::strin
   return true;
 }
 
+namespace {
+
+// Returns the position of the next end tag of an element, outside of comments, CDATA sections and processing
+// instructions; npos if there is none.
+std::size_t find_end_tag(std::string_view bytes, std::string_view name, std::size_t from) {
+  constexpr std::pair<std::string_view, std::string_view> skipped[] = {
+      {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
+  const std::string end_tag = "</" + std::string(name);
+  while ((from = bytes.find('<', from)) != std::string_view::npos) {
+    const std::string_view rest = bytes.substr(from);
+    if (rest.substr(0, end_tag.size()) == end_tag) {
+      return from;
+    }
+    const auto* const found = std::find_if(std::begin(skipped), std::end(skipped), [rest](const auto& each) {
+      return rest.substr(0, each.first.size()) == each.first;
+    });
+    from = found == std::end(skipped) ? from + 1 : bytes.find(found->second, from);
+  }
+  return from;
+}
+
+}  // namespace
+
 bool Document::add_element(Span whole, std::string_view name, Attributes attributes, Edits& edits) const {
   const std::string_view bytes = source_.bytes();
   const std::uint32_t begin = tag_end(whole.begin);
   const std::string_view opened = raw({whole.begin, begin}).substr(1);
   const std::string_view full = opened.substr(0, opened.find_first_of(" \t\r\n/>"));
-  const std::size_t close = bytes.find("</" + std::string(full), std::max(begin, whole.end));
+  const std::size_t close = find_end_tag(bytes, full, std::max(begin, whole.end));
   if (close == std::string_view::npos || raw({begin - 2, begin}) == "/>") {
     return false;
   }
