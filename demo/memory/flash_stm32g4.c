@@ -25,8 +25,8 @@
 static volatile bool IsReading;
 static volatile bool IsDamaged;
 
-// Call this in NMI_Handler(). Returns true if a double word of the parameters that was programmed incompletely was read.
-// Otherwise the program itself is damaged, or the NMI has another source.
+// Call this in NMI_Handler(). Returns true if a double word of the parameters that was programmed incompletely was
+// read. Otherwise the program itself is damaged, or the NMI has another source.
 bool FlashStm32g4Nmi(void) {
   if (!IsReading || (Load(FLASH_ECCR) & ECCR_DAMAGED) == 0) {
     return false;

@@ -62,11 +62,8 @@ constexpr unsigned places_of(Service service) {
 #if CO_HBCONS_N > 0
     case Service::heartbeat_consumer: return CO_HBCONS_N + 1;  // sub-indices
 #endif
-#if USE_MPDO
-    case Service::mpdo: return CO_RPDO_N;
-#endif
-#if CO_RPDO_N > 0
-    case Service::rpdo: return CO_RPDO_N;
+#if CO_EMCY_CONS_N > 0
+    case Service::emcy_consumer: return CO_EMCY_CONS_N + 1;  // node-IDs
 #endif
 #if CO_TPDO_N > 0
     case Service::tpdo: return USE_PDO_RTR != 0 ? CO_TPDO_N : 0;
@@ -74,8 +71,11 @@ constexpr unsigned places_of(Service service) {
 #if CO_SRDO_N > 0
     case Service::srdo: return 2 * CO_SRDO_N;
 #endif
-#if CO_EMCY_CONS_N > 0
-    case Service::emcy_consumer: return CO_EMCY_CONS_N + 1;  // node-IDs
+#if CO_RPDO_N > 0
+#if USE_MPDO
+    case Service::mpdo:
+#endif
+    case Service::rpdo: return CO_RPDO_N;
 #endif
     default: return 1;
   }

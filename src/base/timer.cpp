@@ -383,7 +383,7 @@ Missing missing_call(CO_NODE& node) {
     return Missing::nothing;
   }
   const uint32_t now = port::now(node);
-  const bool is_due = t.Armed != &t.First;  // has_due() would no longer be inlined elsewhere
+  const bool is_due = t.Armed != &t.First;               // has_due() would no longer be inlined elsewhere
   if (!is_due && now - t.Clock < first->At - t.Clock) {  // armed, and not late
     return Missing::nothing;
   }

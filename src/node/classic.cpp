@@ -24,9 +24,7 @@ extern "C" {
 
 void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) { CONodeInitEx(node, spec, nullptr); }
 
-void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) {
-  node::init(node, spec, ext, add);
-}
+void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) { node::init(node, spec, ext, add); }
 
 // The symbols of both functions contain this library's configuration (lexican/detail/configuration.h); programs that
 // declare them without co_core.h link these aliases.

@@ -192,7 +192,7 @@ bool is_newer(const Slot& slot, const Slot& other) {
 }
 
 Found read_again(const Region& region, const Slot& slot, Pass& pass) {
-  Header header;
+  Header header = {};
   return read_slot(region, slot.start, header, pass);
 }
 
@@ -359,7 +359,9 @@ Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
   bool is_older = is_newest_damaged(slots);
   for (unsigned n = 0; n < 2; ++n) {
     const Slot& slot = slots.slot[slots.first ^ n];
-    Pass copy = {to, size, nullptr, false};
+    Pass copy = {};
+    copy.to = to;
+    copy.left = size;
     if (is_whole(slot) && read_again(region, slot, copy) == slot.found) {
       remember(node, record, slot);
       return {slot.found, is_older};

@@ -39,12 +39,11 @@ TEST_CASE("parameters: two groups of equal size whose offsets are exchanged do n
 }
 
 TEST_CASE("parameters: a type of the application that calls the functions of 1011h restores defaults") {
-  static const CO_OBJ_TYPE wrapped = {
-      COTParaRestore.Size, COTParaRestore.Init, COTParaRestore.Read,
-      [](CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
-        return COTParaRestore.Write(obj, node, buffer, size);
-      },
-      COTParaRestore.Reset};
+  static const CO_OBJ_TYPE wrapped = {COTParaRestore.Size, COTParaRestore.Init, COTParaRestore.Read,
+                                      [](CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
+                                        return COTParaRestore.Write(obj, node, buffer, size);
+                                      },
+                                      COTParaRestore.Reset};
   GroupDevice device;
   store_one_and_two(device);
   Fixture node(device.setup().with({CO_KEY(0x1011, 3, CO_OBJ_____RW), &wrapped, GroupDevice::data(&device.second)}));

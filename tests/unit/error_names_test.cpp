@@ -130,13 +130,15 @@ TEST_CASE("CONodeGetErrText: without an error the text names missing calls and s
   }
   SUBCASE("COTmrService(), not for a timer far in the future") {
     Fixture node;
-    CHECK(COTmrCreate(&node->Tmr, 0x90000000, 0, [](void*) {}, nullptr) >= 0);
+    CHECK(COTmrCreate(
+              &node->Tmr, 0x90000000, 0, [](void*) {}, nullptr) >= 0);
     CHECK(text_of(node.node, text) == CO_ERR_NONE);
     CHECK(text == "no error");
   }
   SUBCASE("COTmrService(), for weeks") {
     Fixture node;
-    CHECK(COTmrCreate(&node->Tmr, 10, 0, [](void*) {}, nullptr) >= 0);
+    CHECK(COTmrCreate(
+              &node->Tmr, 10, 0, [](void*) {}, nullptr) >= 0);
     node.idle(2147484s);
     CHECK(text_of(node.node, text) == CO_ERR_NONE);
     CHECK(text == "no error; a timer has elapsed, and COTmrService() has not been called since");

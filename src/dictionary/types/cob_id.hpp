@@ -6,7 +6,6 @@
 
 namespace co::cob_id {
 
-
 // Reads the COB-ID that the network sees. Parameters of a type's Read function.
 [[nodiscard]] CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size);
 

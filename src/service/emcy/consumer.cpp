@@ -55,7 +55,8 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
 
 }  // namespace co::emcy
 
-extern "C" const CO_OBJ_TYPE COTEmcyCons = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::emcy_consumer>,
-                                            co::cob_id::read, co::emcy::write, nullptr};
+extern "C" const CO_OBJ_TYPE COTEmcyCons = {co::integer::Number<4>::size,
+                                            co::dict::checked_by<co::rules::emcy_consumer>, co::cob_id::read,
+                                            co::emcy::write, nullptr};
 
 #endif

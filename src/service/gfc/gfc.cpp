@@ -36,7 +36,9 @@ CO_ERR send(CO_NODE& node) {
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return integer::Number<1>::size(obj, node, width); }
 
-CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) { return integer::Number<1>::read(obj, node, buffer, size); }
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return integer::Number<1>::read(obj, node, buffer, size);
+}
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (is_operational(*node)) {

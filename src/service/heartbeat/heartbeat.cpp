@@ -61,5 +61,6 @@ void on_mode(CO_NODE& node) {
 
 }  // namespace co::heartbeat
 
-extern "C" const CO_OBJ_TYPE COTNmtHbProd = {co::integer::Number<2>::size, co::dict::checked_by<co::rules::heartbeat_producer>,
+extern "C" const CO_OBJ_TYPE COTNmtHbProd = {co::integer::Number<2>::size,
+                                             co::dict::checked_by<co::rules::heartbeat_producer>,
                                              co::integer::Number<2>::read, co::heartbeat::write, nullptr};

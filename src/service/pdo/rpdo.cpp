@@ -71,7 +71,6 @@ void write_stored(CO_NODE& node, CO_RPDO& pdo) {
 
 void forget_stored(CO_NODE& node) { __builtin_memset(node.RPdoFresh, 0, sizeof node.RPdoFresh); }
 
-
 // Processes a frame. Callbacks may end Operational or change the PDO. Returns false if the frame is too short.
 [[gnu::noinline]] bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
   if (is_switching(node) || (is_synchronous(pdo) && node.WindowOver != 0)) {

@@ -40,5 +40,5 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 }  // namespace
 
-extern "C" const CO_OBJ_TYPE COTSdoId = {co::integer::Number<4>::size, dict::checked_by<rules::sdo_cob_id>, cob_id::read, write,
-                                         nullptr};
+extern "C" const CO_OBJ_TYPE COTSdoId = {co::integer::Number<4>::size, dict::checked_by<rules::sdo_cob_id>,
+                                         cob_id::read, write, nullptr};

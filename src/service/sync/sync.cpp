@@ -205,10 +205,10 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTSyncId = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::sync_cob_id>, co::cob_id::read,
-                               co::sync::write_id, nullptr};
-const CO_OBJ_TYPE COTSyncCycle = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::sync_cycle>, co::integer::Number<4>::read,
-                                  co::sync::write_cycle, nullptr};
+const CO_OBJ_TYPE COTSyncId = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::sync_cob_id>,
+                               co::cob_id::read, co::sync::write_id, nullptr};
+const CO_OBJ_TYPE COTSyncCycle = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::sync_cycle>,
+                                  co::integer::Number<4>::read, co::sync::write_cycle, nullptr};
 const CO_OBJ_TYPE COTSyncCount = {co::integer::Number<1>::size, co::dict::checked_by<co::rules::sync_counter>,
                                   co::integer::Number<1>::read, co::sync::write_counter, nullptr};
 

@@ -62,7 +62,8 @@ CO_ERR write(CO_OBJ*, CO_NODE* node, void* buffer, uint32_t size) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTTimeId = {co::integer::Number<4>::size, dict::checked_by<rules::time_cob_id>, cob_id::read, write_id, nullptr};
+const CO_OBJ_TYPE COTTimeId = {co::integer::Number<4>::size, dict::checked_by<rules::time_cob_id>, cob_id::read,
+                               write_id, nullptr};
 const CO_OBJ_TYPE COTTimeClock = {size, nullptr, read, write, nullptr};
 
 }  // extern "C"
