@@ -163,6 +163,10 @@ std::string Fixture::difference(const Fixture& other) const {
   if (differs(node.Routes.Start, other.node.Routes.Start)) {
     return "routes";
   }
+#else
+  if (differs(node.Routes.Id, other.node.Routes.Id)) {
+    return "routes";
+  }
 #endif
   return armed_timers() == other.armed_timers() ? "" : "timers";
 }
