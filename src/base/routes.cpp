@@ -161,7 +161,8 @@ void publish(const CO_NODE& node) {
   }
   uint32_t sorted[CO_ROUTE_PLACES];
   uint16_t num = 0;
-  for (const uint32_t identifier : node.Routes.Id) {
+  for (unsigned place = 0; place < CO_ROUTE_PLACES; ++place) {
+    const uint32_t identifier = node.Routes.Id[place];
     if (identifier != wire::no_frame) {
       uint16_t n = num++;
       for (; n > 0 && sorted[n - 1] > identifier; --n) {

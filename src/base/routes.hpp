@@ -95,6 +95,16 @@ void remove(CO_NODE& node, Service service, uint16_t number);
 void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
 
 #else
+// Returns the position of the first route of an identifier that is not before from; CO_ROUTE_PLACES if there is none.
+[[nodiscard]] inline unsigned find(CO_NODE& node, uint32_t identifier, unsigned from) {
+  uint32_t* const ids = node.Routes.Id;
+  ids[CO_ROUTE_PLACES] = identifier;
+  while (ids[from] != identifier) {
+    ++from;
+  }
+  return from;
+}
+
 // Sets the identifier of an instance (number) of a service. identifier: wire::no_frame for none
 void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
 inline void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {

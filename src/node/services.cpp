@@ -321,16 +321,18 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
 // Calls each service that consumes the identifier.
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
   const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
-  const uint32_t* route = node.Routes.Id;
   bool claimed = false;
   bool served = false;
-  for (const Receiver& service : receivers.row) {
-    for (uint16_t number = 0; number != service.places; ++number) {
-      if (*route++ == id && event::is_allowed(node, service.allowed)) {
-        const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? service.on_remote : service.on_frame;
-        claimed = true;
-        served |= serve(node, frame, number);
-      }
+  for (unsigned place = 0; (place = routes::find(node, id, place)) != CO_ROUTE_PLACES; ++place) {
+    const Receiver* service = receivers.row;
+    unsigned number = place;
+    for (; number >= service->places; ++service) {
+      number -= service->places;
+    }
+    if (event::is_allowed(node, service->allowed)) {
+      const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? service->on_remote : service->on_frame;
+      claimed = true;
+      served |= serve(node, frame, static_cast<uint16_t>(number));
     }
   }
   if (claimed && !served) {

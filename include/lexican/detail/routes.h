@@ -35,10 +35,12 @@ typedef struct CO_ROUTES_T {  ///< routing table: the service instances that con
   uint16_t Owner[CO_ROUTE_N];   ///< service in bits 15…12, number of its instance in bits 11…0
 } CO_ROUTES;
 #else
-// Consumers of heartbeats and EMCY are numbered from 1.
-#define CO_ROUTE_PLACES (CO_ROUTE_N + 2 + (USE_MPDO ? CO_RPDO_N : 0))
-typedef struct CO_ROUTES_T {  ///< identifier that each service instance consumes, with flags
-  uint32_t Id[CO_ROUTE_PLACES];
+// Consumers of heartbeats and EMCY are numbered from 1; an RPDO may be a multiplex PDO instead.
+#define CO_ROUTE_PLACES                                                    \
+  (CO_ROUTE_N + (CO_HBCONS_N > 0 ? 1 : 0) + (CO_EMCY_CONS_N > 0 ? 1 : 0) + \
+   (USE_MPDO ? (CO_RPDO_N > 0 ? CO_RPDO_N : 1) : 0))
+typedef struct CO_ROUTES_T {         ///< identifier that each service instance consumes, with flags
+  uint32_t Id[CO_ROUTE_PLACES + 1];  ///< the last element is the identifier that is searched
 } CO_ROUTES;
 #endif
 
