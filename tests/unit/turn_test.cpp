@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // CO_NODE_EXT.Enter and Leave, the node lock: functions that take it, and work that it encloses. (The fixture checks
 // that calls of Enter are not nested, and that each is followed by Leave.)
+#include <algorithm>
+
 #include "support/failing_nvm.hpp"
 #include "support/real_time_fixture.hpp"
 #include "support/timers.hpp"
