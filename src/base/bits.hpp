@@ -25,17 +25,34 @@ bool is_empty(const uint32_t (&set)[words]) {
   return all == 0;
 }
 
-// Returns the lowest number in the set that is not below from, or end if there is none.
-template <unsigned words>
-unsigned next(const uint32_t (&set)[words], unsigned from, unsigned end) {
-  while (from < end) {
-    const uint32_t rest = words == 1 ? set[0] >> from : set[from / 32] >> from % 32;
-    if ((rest & 1U) != 0) {
-      return from;
+// Calls function(number) for each number in the set, in ascending order; one that is removed meanwhile is left out.
+template <unsigned words, class Function>
+[[gnu::always_inline]] inline void for_each(const uint32_t (&set)[words], Function function) {
+  for (const uint32_t& word : set) {
+    unsigned number = static_cast<unsigned>(&word - set) * 32;
+    uint32_t bit = 1;
+    for (uint32_t rest = word; rest != 0; rest >>= 1, bit <<= 1, ++number) {
+      if ((rest & 1U) != 0 && (word & bit) != 0) {
+        function(number);
+      }
     }
-    from = words == 1 || rest != 0 ? from + 1 : (from | 31U) + 1;
   }
-  return end;
+}
+
+// Empties the set, and calls function(number) for each number that was in it. Of more than 32 numbers, those that are
+// removed meanwhile may be left out.
+template <unsigned words, class Function>
+[[gnu::always_inline]] inline void take_each(uint32_t (&set)[words], Function function) {
+  for (uint32_t& word : set) {
+    unsigned number = static_cast<unsigned>(&word - set) * 32;
+    uint32_t rest = word;
+    word = 0;
+    for (; rest != 0; rest >>= 1, ++number) {
+      if ((rest & 1U) != 0) {
+        function(number);
+      }
+    }
+  }
 }
 
 }  // namespace co::bits

@@ -84,7 +84,7 @@ check_presets() {
       [[ $setting != USE_* ]] || other=$((1 - value))
       [ "$setting" != USE_OBJ_EX ] || [ "$value" = 0 ] || continue
       printf '#include "co_cfg.h"\n#if %s != %s\n#error another value\n#endif\nextern int not_empty;\n' "$setting" "$other" |
-        "$@" "${includes[@]}" "${strict[@]}" "-DCO_CFG_PRESET=\"$preset\"" "-D$setting=$other" -fsyntax-only - ||
+        "$@" "${includes[@]}" "${strict[@]}" "-DCO_CFG_PRESET=\"$preset\"" "-U$setting" "-D$setting=$other" -fsyntax-only - ||
         fail "${preset##*/}: -D$setting=$other"
     done
     if grep -E '^#define (CO|USE)_' "$preset" | grep -v '_H_$' | awk '{ print $2 }' | sort | comm -23 - <(settings_in "$preset" | sort) | grep .; then

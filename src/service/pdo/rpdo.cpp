@@ -184,17 +184,12 @@ void apply(CO_NODE& node) {
   }
   {
     const Lock lock(node);
-    for (unsigned n = 0; (n = bits::next(node.RPdoFresh, n, CO_RPDO_N)) != CO_RPDO_N; ++n) {
-      write_stored(node, node.RPdo[n]);
-    }
+    bits::for_each(node.RPdoFresh, [&](unsigned n) { write_stored(node, node.RPdo[n]); });
   }
-  decltype(node.RPdoFresh) written;  // a callback may leave Operational, which empties the set
-  __builtin_memcpy(written, node.RPdoFresh, sizeof written);
-  forget_stored(node);
-  for (unsigned n = 0; (n = bits::next(written, n, CO_RPDO_N)) != CO_RPDO_N; ++n) {
+  bits::take_each(node.RPdoFresh, [&](unsigned n) {
     callback::update_pdo_at_sync(node, node.RPdo[n]);
     callback::update_pdo(node, node.RPdo[n]);
-  }
+  });
 }
 
 bool was_received(CO_NODE& node, uint16_t number) {

@@ -216,20 +216,19 @@ bool maps_or_marks(CO_TPDO& pdo, uint16_t entry) {
   return mpdo::is_sam(pdo.Map) ? mpdo::mark(*pdo.Node, entry) : maps(pdo.Map, entry);
 }
 
-// Triggers the marked PDOs, in the order of their numbers. Those with lower numbers that are marked meanwhile are left
-// to the next round. Returns the last error.
+// Triggers the marked PDOs, in the order of their numbers. Those that are marked meanwhile are left to the next round.
+// Returns the last error.
 CO_ERR trigger_marked(CO_NODE& node) {
   CO_ERR last = CO_ERR_NONE;
   event::remove(node, event::send_tpdos);
-  for (unsigned n = 0; (n = bits::next(node.TPdoMarked, n, CO_TPDO_N)) != CO_TPDO_N; ++n) {
+  bits::take_each(node.TPdoMarked, [&](unsigned n) {
     CO_TPDO& pdo = node.TPdo[n];
-    bits::remove(node.TPdoMarked, n);
     if (has(pdo.Map, marked)) {
       clear(pdo.Map, marked);
       const CO_ERR err = trigger(pdo);
       last = err != CO_ERR_NONE ? err : last;
     }
-  }
+  });
   return last;
 }
 
@@ -254,12 +253,12 @@ void begin(CO_TPDO& pdo) {
   }
 }
 
-unsigned next_synchronous(const CO_NODE& node, unsigned from) { return bits::next(node.TPdoSync, from, CO_TPDO_N); }
-
 void withdraw_synchronous(CO_NODE& node) {
-  for (unsigned n = 0; (n = next_synchronous(node, n)) != CO_TPDO_N && transmit::is_waiting(node); ++n) {
-    transmit::withdraw(node, node.TPdo[n].Identifier);
-  }
+  bits::for_each(node.TPdoSync, [&](unsigned n) {
+    if (transmit::is_waiting(node)) {
+      transmit::withdraw(node, node.TPdo[n].Identifier);
+    }
+  });
 }
 
 }  // namespace
@@ -347,12 +346,11 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
 
 void sample(CO_NODE& node, uint8_t counter) {
   node.WindowOver = 0;
-  if (bits::is_empty(node.TPdoSync)) {
-    return;
-  }
-  for (unsigned n = 0; (n = next_synchronous(node, n)) != CO_TPDO_N && is_operational(node); ++n) {
-    process_sync(node.TPdo[n], counter);
-  }
+  bits::for_each(node.TPdoSync, [&](unsigned n) {
+    if (is_operational(node)) {
+      process_sync(node.TPdo[n], counter);
+    }
+  });
 }
 
 void end_window(CO_NODE& node) {
