@@ -52,34 +52,51 @@ enum class Service : uint8_t {
   count
 };
 
-// Returns the number of instances of a service that receive frames; their numbers are lower.
-constexpr unsigned places_of(Service service) {
-  switch (service) {
-    case Service::sdo_server: return CO_SSDO_N;
+// Number of instances of each service that receive frames; their numbers are lower.
+inline constexpr uint16_t instances[] = {
+    1,  // nmt
+    CO_SSDO_N,
 #if USE_CSDO
-    case Service::sdo_client: return CO_CSDO_N;
+    CO_CSDO_N,
 #endif
+    1,  // error_control
 #if CO_HBCONS_N > 0
-    case Service::heartbeat_consumer: return CO_HBCONS_N + 1;  // sub-indices
+    CO_HBCONS_N + 1,  // sub-indices
 #endif
-#if CO_EMCY_CONS_N > 0
-    case Service::emcy_consumer: return CO_EMCY_CONS_N + 1;  // node-IDs
+#if USE_SYNC
+    1,
 #endif
-#if CO_TPDO_N > 0
-    case Service::tpdo: return USE_PDO_RTR != 0 ? CO_TPDO_N : 0;
+#if USE_TIME
+    1,
 #endif
-#if CO_SRDO_N > 0
-    case Service::srdo: return 2 * CO_SRDO_N;
+#if USE_MPDO
+    CO_RPDO_N > 0 ? CO_RPDO_N : 1,
 #endif
 #if CO_RPDO_N > 0
-#if USE_MPDO
-    case Service::mpdo:
+    CO_RPDO_N,
 #endif
-    case Service::rpdo: return CO_RPDO_N;
+#if CO_TPDO_N > 0
+    USE_PDO_RTR != 0 ? CO_TPDO_N : 0,
 #endif
-    default: return 1;
-  }
-}
+#if USE_GFC
+    1,
+#endif
+#if CO_SRDO_N > 0
+    2 * CO_SRDO_N,
+#endif
+#if CO_EMCY_CONS_N > 0
+    CO_EMCY_CONS_N + 1,  // node-IDs
+#endif
+#if USE_LSS
+    1,
+#endif
+#if USE_LSS_MASTER
+    1,
+#endif
+};
+static_assert(sizeof instances == sizeof(uint16_t) * static_cast<unsigned>(Service::count));
+
+constexpr uint16_t places_of(Service service) { return instances[static_cast<unsigned>(service)]; }
 
 void clear(CO_NODE& node);
 

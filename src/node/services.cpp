@@ -160,8 +160,7 @@ struct Receivers {
 constexpr Receivers receivers_of_table() {
   Receivers receivers = {};
   for (size_t n = 0; n < static_cast<size_t>(Id::count); ++n) {
-    receivers.row[n] = {table[n].allowed, static_cast<uint16_t>(routes::places_of(table[n].id)), table[n].on_frame,
-                        table[n].on_remote};
+    receivers.row[n] = {table[n].allowed, routes::places_of(table[n].id), table[n].on_frame, table[n].on_remote};
   }
   return receivers;
 }
