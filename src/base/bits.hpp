@@ -25,16 +25,33 @@ bool is_empty(const uint32_t (&set)[words]) {
   return all == 0;
 }
 
+// Calls function(number) for each number in a word of a set, the lowest of which is number.
+template <class Function>
+[[gnu::always_inline]] inline void for_each_in(const uint32_t& word, unsigned number, Function function) {
+  uint32_t bit = 1;
+  for (uint32_t rest = word; rest != 0; rest >>= 1, bit <<= 1, ++number) {
+    if ((rest & 1U) != 0 && (word & bit) != 0) {
+      function(number);
+    }
+  }
+}
+
 // Calls function(number) for each number in the set, in ascending order; one that is removed meanwhile is left out.
 template <unsigned words, class Function>
 [[gnu::always_inline]] inline void for_each(const uint32_t (&set)[words], Function function) {
   for (const uint32_t& word : set) {
-    unsigned number = static_cast<unsigned>(&word - set) * 32;
-    uint32_t bit = 1;
-    for (uint32_t rest = word; rest != 0; rest >>= 1, bit <<= 1, ++number) {
-      if ((rest & 1U) != 0 && (word & bit) != 0) {
-        function(number);
-      }
+    for_each_in(word, static_cast<unsigned>(&word - set) * 32, function);
+  }
+}
+
+// Empties a word of a set, and calls function(number) for each number that was in it.
+template <class Function>
+[[gnu::always_inline]] inline void take_each_in(uint32_t& word, unsigned number, Function function) {
+  uint32_t rest = word;
+  word = 0;
+  for (; rest != 0; rest >>= 1, ++number) {
+    if ((rest & 1U) != 0) {
+      function(number);
     }
   }
 }
@@ -44,14 +61,7 @@ template <unsigned words, class Function>
 template <unsigned words, class Function>
 [[gnu::always_inline]] inline void take_each(uint32_t (&set)[words], Function function) {
   for (uint32_t& word : set) {
-    unsigned number = static_cast<unsigned>(&word - set) * 32;
-    uint32_t rest = word;
-    word = 0;
-    for (; rest != 0; rest >>= 1, ++number) {
-      if ((rest & 1U) != 0) {
-        function(number);
-      }
-    }
+    take_each_in(word, static_cast<unsigned>(&word - set) * 32, function);
   }
 }
 
