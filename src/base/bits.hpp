@@ -25,7 +25,7 @@ bool is_empty(const uint32_t (&set)[words]) {
   return all == 0;
 }
 
-// Calls function(number) for each number in a word of a set, the lowest of which is number.
+// Like for_each(), for one word of a set, whose lowest bit is that of number.
 template <class Function>
 [[gnu::always_inline]] inline void for_each_in(const uint32_t& word, unsigned number, Function function) {
   uint32_t bit = 1;
@@ -44,7 +44,7 @@ template <unsigned words, class Function>
   }
 }
 
-// Empties a word of a set, and calls function(number) for each number that was in it.
+// Like take_each(), for one word of a set, whose lowest bit is that of number.
 template <class Function>
 [[gnu::always_inline]] inline void take_each_in(uint32_t& word, unsigned number, Function function) {
   uint32_t rest = word;

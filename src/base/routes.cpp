@@ -154,7 +154,7 @@ void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number
   node.Routes.Id[places.first[static_cast<unsigned>(service)] + number] = identifier;
 }
 
-// Sorts the identifiers on the CPU's stack.
+// Passes a sorted copy of the identifiers, which is on the CPU's stack.
 void publish(const CO_NODE& node) {
   if (!port::can_wants_filter(node)) {
     return;

@@ -61,7 +61,7 @@ inline void assign_to_real_time(CO_TMR_MEM&) {}
 // armed.
 [[nodiscard]] uint32_t now(CO_NODE& node);
 
-// Call that an elapsed timer has been without for an eighth of a second.
+// Function that the application has not called for an eighth of a second although a timer has elapsed.
 enum class Missing : uint8_t { nothing, service, process };
 [[nodiscard]] Missing missing_call(CO_NODE& node);
 

@@ -317,7 +317,7 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
   return true;
 }
 #else
-// Calls each service that consumes the identifier.
+// Calls each service that consumes the identifier. A position is found in the row of its service by counting instances.
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
   const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
   bool claimed = false;

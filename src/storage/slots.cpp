@@ -102,7 +102,7 @@ class Buffer {
   explicit Buffer(const Region& region) : size_(CO_STORE_BUFFER - CO_STORE_BUFFER % region.program) {
     CO_ASSERT(size_ != 0 && size_ <= sizeof bytes_);
   }
-  // Returns the bytes of the next piece of so many.
+  // Returns the size of the next piece, of the bytes that are left.
   [[nodiscard]] uint32_t piece_of(uint32_t bytes) const { return bytes < size_ ? bytes : size_; }
   [[nodiscard]] uint8_t* bytes() { return bytes_; }
 
@@ -161,8 +161,8 @@ bool is_blank(const Header& header) {
   return uniform && (header.magic == UINT32_MAX || header.magic == 0);
 }
 
-// Reads a slot: its header and, with pass, its data. Returns what it holds; Found::lost if its header or its CRC is
-// invalid. A header that cannot be read is 0 throughout.
+// Reads header and data of a slot; the data are copied or compared as pass requires. Returns what the slot holds;
+// Found::lost if its header or its CRC is invalid. A header that cannot be read is 0 throughout.
 Found read_slot(const Region& region, uint32_t start, Header& header, Pass& pass) {
   if (!read(region, start, &header, sizeof header)) {
     header = {};
