@@ -477,7 +477,7 @@ kill $server
 lexican_bus_tests >/tmp/socketcan 2>&1
 summary=$(grep "test cases:" /tmp/socketcan)
 echo "$summary" | grep -Eq "test cases: +10 +\| +10 passed"
-verdict $? "the SocketCAN driver on real interfaces: 10 cases" "$summary"
+verdict $? "the SocketCAN driver on real interfaces: 10 cases" "$summary; $(grep -A3 "ERROR" /tmp/socketcan | tr '\n' ' ')"
 
 # The pages show /dev/pts/0 as an example of the name that the node prints.
 $node --serve --pty --node-id 5 >/tmp/trace 2>&1 &
