@@ -143,9 +143,9 @@ typedef struct CO_NODE_EXT_T {
 /// Baudrate, and must not access any other member. Frequently used members come first, where small CPUs reach them with
 /// one instruction.
 typedef struct CO_NODE_T {
-  uint8_t NodeId;   ///< 1…127, or CO_LSS_NO_NODE_ID: unconfigured
-  uint8_t State;    ///< bits: initialised and running, processing a frame, changing the NMT state
-  uint8_t Pending;  ///< bits: deferred work, to be done when the API function or the frame in progress is complete
+  uint8_t NodeId;    ///< 1…127, or CO_LSS_NO_NODE_ID: unconfigured
+  uint8_t State;     ///< bits: initialised and running, working (processing a frame, a timer of the stack or an access)
+  uint16_t Pending;  ///< bits: deferred work, done where the outermost call ends
   /// Block transfers are paused: they wait for the controller, or for the next call of CONodeProcess() or
   /// COTmrProcess().
   uint8_t Paused;
@@ -268,6 +268,8 @@ void CONodeInitCtx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* e
 void CONodeStart(CO_NODE* node);
 
 /// Stops the timers of the stack and takes the controller off the bus; the node is in CO_INVALID until CONodeInit().
+/// In a callback or type function this happens where the outermost call ends, and the node's memory must be valid until
+/// then; no further frame is transmitted.
 void CONodeStop(CO_NODE* node);
 
 /// Returns the last error and clears it. COErrName() and COErrText() (co_err.h) return its name and its meaning,

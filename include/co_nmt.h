@@ -10,8 +10,8 @@
 /// CO_TUNSIGNED8), read at each remote frame. A data frame with 700h + node-ID, which no other node may send, is
 /// reported with EMCY 8150h and counted as malformed.
 ///
-/// Context: the loop. A reset requested by a type function or callback while a received frame is processed is executed
-/// after the response to that frame was sent.
+/// Context: the loop. A state or reset that a type function or callback requests while the node works (a received
+/// frame, a timer of the stack, an access) is entered where the outermost call ends, after the response to the frame.
 #ifndef CO_NMT_H_
 #define CO_NMT_H_
 
@@ -62,7 +62,7 @@ typedef enum CO_NMT_RESET_T {
 typedef struct CO_NMT_T {
   struct CO_NODE_T* Node;  ///< owner
   CO_MODE Mode;            ///< present mode, see CONmtGetMode()
-  CO_MODE Next;            ///< mode to be entered; equal to Mode unless a change is in progress
+  CO_MODE Next;            ///< mode that was requested last; equal to Mode unless a change is pending
   uint8_t Allowed;         ///< CO_…_ALLOWED bits of the present mode
   uint8_t Booting;         ///< the node has not been in Pre-operational since its initialisation
 } CO_NMT;
@@ -77,10 +77,12 @@ void CONmtReset(CO_NMT* nmt, CO_NMT_RESET type);
 /// Changes the NMT state like a command of the NMT master. In CO_INVALID, and for modes other than CO_PREOP,
 /// CO_OPERATIONAL and CO_STOP, the change is refused with the node error CO_ERR_NMT_MODE. In CO_INIT, call
 /// CONodeStart() first; if the firmware changes the mode from CO_INIT
-/// directly, the boot-up message is sent and Pre-operational is entered before the change.
+/// directly, the boot-up message is sent and Pre-operational is entered before the change. Of several states that
+/// callbacks request, the last one is entered.
 void CONmtSetMode(CO_NMT* nmt, CO_MODE mode);
 
-/// Returns the NMT state; CO_INVALID if \a nmt is null (after CONodeFatalError()).
+/// Returns the NMT state, or the one that was requested and is entered where the outermost call ends; CO_INVALID if
+/// \a nmt is null (after CONodeFatalError()).
 CO_MODE CONmtGetMode(CO_NMT* nmt);
 
 /// Sets the node-ID, 1…127, in CO_INIT. Call CONmtReset(nmt, CO_RESET_NODE) afterwards, which updates the identifiers

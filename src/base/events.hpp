@@ -10,59 +10,59 @@ namespace co::event {
 // Returns whether the NMT state allows the communication. what: CO_…_ALLOWED
 [[nodiscard]] inline bool is_allowed(const CO_NODE& node, uint8_t what) { return (node.Nmt.Allowed & what) != 0; }
 
-// Changes the NMT state: calls the application's callback, sets the permissions, then informs every service.
-void change_mode(CO_NODE& node, CO_MODE mode);
+// Requests an NMT state: run_deferred() enters it. The last request counts; CO_INVALID (CONodeStop()) is final.
+void request_mode(CO_NODE& node, CO_MODE mode);
+// Enters the requested NMT state: calls the application's callback, sets the permissions, then informs every service.
+// The caller keeps the node working.
+void enter_requested_mode(CO_NODE& node);
 
-// Bits of CO_NODE.State. CONodeProcess() serves a frame only where running is set and nothing else.
+// Bits of CO_NODE.State. CONodeProcess() processes a frame only where running is set and nothing else.
 enum State : uint8_t {
-  running = 0x01,   // the NMT state is not CO_INVALID
-  serving = 0x02,   // a frame, a reset, … is processed: requests of callbacks and type functions are deferred
-  changing = 0x04,  // the NMT state is being changed; CONmtModeChange() may be running
-  mapping = 0x08,   // the mapping of a PDO is being resolved; a Size function may be running
+  running = 0x01,  // the NMT state is not CO_INVALID
+  serving = 0x02,  // a frame, a timer of the stack, an access, … is processed: requests are deferred
 };
 [[nodiscard]] inline bool is_serving(const CO_NODE& node) { return (node.State & serving) != 0; }
 
-// Scope in which a bit of CO_NODE.State is set. Scopes may nest.
-template <State bit>
-class Scope {
+// Scope in which the node works. Scopes may nest.
+class Serving {
  public:
-  [[gnu::always_inline]] explicit Scope(CO_NODE& node) : node_(node), before_(node.State) { node.State |= bit; }
-  Scope(const Scope&) = delete;
-  Scope& operator=(const Scope&) = delete;
-  [[gnu::always_inline]] ~Scope() { node_.State &= static_cast<uint8_t>(before_ | ~bit); }
+  [[gnu::always_inline]] explicit Serving(CO_NODE& node) : node_(node), before_(node.State) { node.State |= serving; }
+  Serving(const Serving&) = delete;
+  Serving& operator=(const Serving&) = delete;
+  [[gnu::always_inline]] ~Serving() { node_.State &= static_cast<uint8_t>(before_ | ~serving); }
 
  private:
   CO_NODE& node_;
   uint8_t before_;
 };
-using Serving = Scope<serving>;  // requests are deferred
-using Mapping = Scope<mapping>;
 
 // Deferred work (bits of CO_NODE.Pending). It runs at the end of the API function that has caused it; if that was
-// called while a frame is processed, after the frame was answered. Order: configuration, EMCY messages, TPDOs, resets.
-enum Pending : uint8_t {
+// called while the node works, where the outermost call ends. Order: configuration, EMCY messages, TPDOs, NMT state,
+// resets.
+enum Pending : uint16_t {
   reset_node = 0x01,
   reset_communication = 0x02,
-  commanded = 0x04,  // the reset was commanded by the NMT master
-  configure_sdo = 0x08,
+  commanded = 0x04,   // the reset was commanded by the NMT master
+  configure = 0x08,   // parameters of SDO servers, SDO clients or PDOs were changed
   remap = 0x10,       // CODictInit() has renumbered the entries
-  overrun = 0x20,     // CONodeRealTime() has lost frames
+  mode = 0x20,        // CO_NMT.Next was requested
   send_emcy = 0x40,   // EMCY messages are queued, or the error register has changed
   send_tpdos = 0x80,  // event-driven TPDOs are marked; not while OdLock is held
+  overrun = 0x100,    // CONodeRealTime() has lost frames
 };
 // Adds deferred work. what: bits of Pending
-inline void defer(CO_NODE& node, uint8_t what) { node.Pending = static_cast<uint8_t>(node.Pending | what); }
+inline void defer(CO_NODE& node, unsigned what) { node.Pending = static_cast<uint16_t>(node.Pending | what); }
 // Removes deferred work that is about to run.
-inline void remove(CO_NODE& node, unsigned what) { node.Pending = static_cast<uint8_t>(node.Pending & ~what); }
+inline void remove(CO_NODE& node, unsigned what) { node.Pending = static_cast<uint16_t>(node.Pending & ~what); }
 
-inline constexpr uint8_t configuration = configure_sdo | remap;
+inline constexpr uint8_t configuration = configure | remap;
 // Resets that are requested while the node is being initialised or started are dropped (forget_resets()): the
 // initialisation in progress includes them.
 inline constexpr uint8_t resets = reset_node | reset_communication | commanded;
 // Work that the thread which has requested it runs, also a real-time thread.
 inline constexpr uint8_t messages = send_emcy | send_tpdos;
 // Work that is deferred until CONodeProcess() where there is a real-time thread (CO_NODE_EXT.Mainline).
-inline constexpr uint8_t of_mainline = resets | overrun;
+inline constexpr uint16_t of_mainline = resets | overrun;
 inline void forget_resets(CO_NODE& node) { remove(node, resets); }
 
 // Communication faults, each with an EMCY error code and bits of the error register. [301:7.2.7]
@@ -142,17 +142,33 @@ inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const 
 #endif
 }
 
-// Runs deferred work, unless a frame is being processed or the NMT state is being changed. Every API function that may
-// cause deferred work ends with run_deferred(), and so does each timer action. Where there is a real-time thread, the
+// Runs deferred work, unless the node is working. Every API function that may cause deferred work ends with
+// run_deferred(), and so does each timer action. Where there is a real-time thread, the
 // work of the mainline (of_mainline) is left to CONodeProcess(), whichever thread has requested it.
 void run_all_deferred(CO_NODE& node);
-// Sends the deferred messages, also while a frame is being processed: before the NMT state is changed, and in
-// CONodeRealTime() after each frame and each timer action.
+// Ends a Call. before: CO_NODE.State at its begin
+void end_call(CO_NODE& node, uint8_t before);
+// Sends the deferred messages, also while the node works: before the NMT state is changed, and in CONodeRealTime()
+// after each frame and each timer action.
 void send_deferred(CO_NODE& node);
 [[gnu::always_inline]] inline void run_deferred(CO_NODE& node) {
   if (node.Pending != 0) {
     run_all_deferred(node);
   }
 }
+
+// Scope of an API function that may call functions of the application: the node works, and at the end runs deferred
+// work if this is the outermost call.
+class Call {
+ public:
+  [[gnu::always_inline]] explicit Call(CO_NODE& node) : node_(node), before_(node.State) { node.State |= serving; }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+  [[gnu::always_inline]] ~Call() { end_call(node_, before_); }
+
+ private:
+  CO_NODE& node_;
+  uint8_t before_;
+};
 
 }  // namespace co::event

@@ -205,6 +205,15 @@ const CO_TMR_MEM& remove_first(CO_TMR& t) {
   return remove_elapsed(t, t.First);
 }
 
+// Runs the action of an elapsed timer, and the work that it has deferred. The node works during the actions of its own
+// timers, not during those of the application.
+void run(CO_NODE& node, const CO_TMR_MEM& timer) {
+  const uint8_t before = node.State;
+  node.State = static_cast<uint8_t>(before | (timer.Pooled != 0 ? 0U : unsigned{event::serving}));
+  timer.Func(timer.Para);
+  event::end_call(node, before);
+}
+
 #if USE_REAL_TIME
 
 // Timers to be run: with a real-time thread, some belong to that thread, the others to the mainline.
@@ -256,8 +265,7 @@ bool run_one(CO_TMR& t, Share share, const Span& span) {
     }
     timer = &remove_elapsed(t, *link);
   }
-  timer->Func(timer->Para);
-  event::run_deferred(*t.Node);
+  run(*t.Node, *timer);
   return true;
 }
 
@@ -412,9 +420,7 @@ void run_due(CO_TMR& timers) {
   const uint32_t first = timers.First->At;
   const uint32_t span = owner_of(first_armed(timers)).At - first;
   do {
-    const CO_TMR_MEM& timer = remove_first(timers);
-    timer.Func(timer.Para);
-    event::run_deferred(*timers.Node);
+    run(*timers.Node, remove_first(timers));
   } while (has_due(timers) && timers.First->At - first <= span);
 }
 

@@ -7,9 +7,8 @@
 namespace co::obj {
 
 CO_ERR write_for_application(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
-  const CO_ERR err = write(obj, node, buffer, size);
-  event::run_deferred(node);
-  return err;
+  const event::Call call(node);
+  return write(obj, node, buffer, size);
 }
 
 CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t size) {

@@ -37,13 +37,9 @@ void check_mandatory_objects(CO_NODE& node) {
   }
 }
 
-// Runs the part of the initialisation that every NMT reset repeats. The caller keeps the node serving, so that requests
-// of type functions and callbacks are deferred. Returns false if one of them has stopped the node.
+// Runs the part of the initialisation that every NMT reset repeats, in CO_INIT. The caller keeps the node working, so
+// that requests of type functions and callbacks are deferred. Returns false if one of them stops the node.
 [[nodiscard]] bool initialise(CO_NODE& node, CO_NMT_RESET type) {
-  event::change_mode(node, CO_INIT);
-  if (node.Nmt.Mode != CO_INIT) {
-    return false;
-  }
   routes::clear(node);
   dict::set_power_on_values(node, type);
   services::load(node, type);
@@ -53,10 +49,10 @@ void check_mandatory_objects(CO_NODE& node) {
   }
   services::init(node);
   routes::publish(node);
-  return node.Nmt.Mode == CO_INIT;
+  return node.Nmt.Next == CO_INIT;
 }
 
-// Sends the boot-up message and enters Pre-operational; a node without node-ID stays in Initialisation. [305]
+// Sends the boot-up message and requests Pre-operational; a node without node-ID stays in Initialisation. [305]
 void start(CO_NODE& node) {
   if (!services::awaits_node_id(node)) {
     nmt::boot(node);
@@ -66,13 +62,11 @@ void start(CO_NODE& node) {
 // Resets the node. commanded: a reset by the NMT master drops the queued frames; a reset by the application still sends
 // the SDO responses among them, as it may have been requested by a write, and NMT commands to other nodes.
 void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
-  if (node.Nmt.Mode == CO_INVALID) {  // COLssLoad() has stopped the node
-    return;
-  }
   const bool was_initialising = node.Nmt.Mode == CO_INIT;
   const bool waits_for_start = was_initialising && !services::is_started(node);
   commanded ? transmit::clear(node) : transmit::keep_responses(node);
-  event::change_mode(node, CO_INIT);
+  event::request_mode(node, CO_INIT);
+  event::enter_requested_mode(node);
   if (node.Nmt.Mode != CO_INIT) {
     return;
   }
@@ -82,8 +76,11 @@ void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
   port::can_reset(node);
   services::save_changes(node);
   services::take_node_id(node);
-  if (initialise(node, type) && !waits_for_start) {
+  const bool is_ready = initialise(node, type);
+  event::forget_resets(node);
+  if (is_ready && !waits_for_start) {
     start(node);
+    event::enter_requested_mode(node);
   }
 }
 
@@ -91,34 +88,23 @@ void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
 void run_reset(CO_NODE& node, uint8_t pending) {
   const bool commanded = (pending & event::commanded) != 0;
   const CO_NMT_RESET type = (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM;
-  if (node.Nmt.Mode == CO_INVALID) {
-    return;
+  if (type == CO_RESET_NODE) {
+    services::forget_application(node);
+    services::load_node_id(node);
   }
-  {
-    const event::Serving serving(node);
-    if (type == CO_RESET_NODE) {
-      services::forget_application(node);
-      services::load_node_id(node);
-    }
-    reset(node, type, commanded);
-    event::forget_resets(node);
-  }
+  reset(node, type, commanded);
   if (commanded && node.Nmt.Mode != CO_INVALID) {
     callback::request_reset(node, type);
   }
 }
 
-// Reads the COB-IDs of SDO servers and clients from the dictionary again; entries_have_moved: also finds the mapped
-// objects again.
+// Reads parameters from the dictionary again; entries_have_moved: also finds the mapped objects again.
 void reconfigure(CO_NODE& node, bool entries_have_moved) {
-  {
-    const event::Serving serving(node);
-    if (entries_have_moved) {
-      CO_ASSERT(node.Remap != nullptr);
-      node.Remap(&node);
-    }
-    services::configure(node);
+  if (entries_have_moved) {
+    CO_ASSERT(node.Remap != nullptr);
+    node.Remap(&node);
   }
+  services::configure(node);
   routes::publish(node);
 }
 
@@ -131,19 +117,23 @@ inline unsigned runnable(const CO_NODE& node, unsigned what) {
 // Runs the deferred work whose bits are set in what, and the work that it causes. TPDOs are sent after a configuration,
 // by which the mapped objects may have moved.
 void run_pending(CO_NODE& node, unsigned what) {
-  while ((node.State & (event::serving | event::changing)) == 0) {
+  while (node.State == event::running) {
     const unsigned pending = runnable(node, what);
     if (pending == 0) {
       return;
     }
-    event::remove(node, pending & ~unsigned{event::messages});
+    const event::Serving serving(node);
+    event::remove(node, pending & ~unsigned{event::messages | event::mode});
     // A reset configures everything, but callbacks before it may still send PDOs, whose objects may have moved.
     const bool is_due = (pending & event::resets) == 0 || (pending & event::remap) != 0;
-    if ((pending & event::configuration) != 0 && is_due && node.Nmt.Mode != CO_INVALID) {
+    if ((pending & event::configuration) != 0 && is_due) {
       reconfigure(node, (pending & event::remap) != 0);
     }
     event::send_deferred(node);
-    if ((pending & event::resets) != 0) {
+    if ((pending & event::mode) != 0) {
+      event::enter_requested_mode(node);
+    }
+    if ((pending & event::resets) != 0 && node.Nmt.Mode != CO_INVALID) {
       run_reset(node, static_cast<uint8_t>(pending));
     }
   }
@@ -251,9 +241,8 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
 // Runs all deferred work, for CONodeProcess(): also the work that is left to the mainline.
 #if USE_REAL_TIME
 void run_deferred_of_mainline(CO_NODE& node) {
-  const uint8_t pending = node.Pending;
-  node.Pending &= static_cast<uint8_t>(~event::overrun);
-  if ((pending & event::overrun) != 0 && node.Nmt.Mode != CO_INVALID) {
+  if ((node.Pending & event::overrun) != 0) {
+    event::remove(node, event::overrun);
     report(node, CO_CAN_OVERRUN);
   }
   run_pending(node, ~unsigned{event::overrun});
@@ -410,6 +399,11 @@ void event::run_all_deferred(CO_NODE& node) {
   node::run_pending(node, port::has_mainline(node) ? ~unsigned{of_mainline} : ~0U);
 }
 
+void event::end_call(CO_NODE& node, uint8_t before) {
+  node.State &= static_cast<uint8_t>(before | ~serving);
+  run_deferred(node);
+}
+
 void event::send_deferred(CO_NODE& node) {
   if ((node.Pending & send_emcy) != 0) {
     services::send_emcy(node);
@@ -438,12 +432,17 @@ void node::init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext,
   bool initialised = false;
   {
     const event::Serving serving(*node);
-    initialised = initialise(*node, CO_RESET_NODE);
+    node->Nmt.Next = CO_INIT;
+    event::defer(*node, event::mode);
+    event::enter_requested_mode(*node);
+    initialised = node->Nmt.Mode == CO_INIT && initialise(*node, CO_RESET_NODE);
     event::forget_resets(*node);
+  }
+  if (dict::stops_node(node->Dict)) {
+    event::request_mode(*node, CO_INVALID);
   }
   event::run_deferred(*node);
   if (dict::stops_node(node->Dict)) {
-    event::change_mode(*node, CO_INVALID);
     error::report(*node, CO_ERR_DICT_INIT, dict::fault_key_of(node->Dict));
     return;
   }
@@ -474,10 +473,7 @@ void CONodeStart(CO_NODE* node) {
 
 void CONodeStop(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  if (node->Nmt.Mode == CO_INVALID && (node->State & event::changing) == 0) {
-    return;
-  }
-  event::change_mode(*node, CO_INVALID);
+  event::request_mode(*node, CO_INVALID);
   event::run_deferred(*node);
 }
 
@@ -487,17 +483,14 @@ void CONodeProcess(CO_NODE* node) {
   if constexpr (USE_REAL_TIME != 0) {
     node::run_deferred_of_mainline(*node);
   }
+  node->Burst = 0;
+  if (node->State == event::running && node::waits_to_send(*node)) {
+    node::resume_sending(*node);
+    node::run_deferred_of_mainline(*node);
+  }
   if (node->State != event::running) {
     node::drop_received(*node);
     return;
-  }
-  node->Burst = 0;
-  if (node::waits_to_send(*node)) {
-    node::resume_sending(*node);
-    node::run_deferred_of_mainline(*node);
-    if (node->Nmt.Mode == CO_INVALID) {
-      return;
-    }
   }
   CO_IF_FRM frame = wire::empty_frame();
   if (!node::receive(*node, frame)) {
@@ -512,6 +505,9 @@ void CONodeProcess(CO_NODE* node) {
 void COTmrProcess(CO_TMR* tmr) {
   ASSERT_PTR_FATAL(tmr);
   ASSERT_PTR_FATAL(tmr->Node);
+  if (event::is_serving(*tmr->Node)) {
+    return;
+  }
   if (tmr::run_locked(*tmr, node::resume_sending_between_frames)) {
     return;
   }
@@ -531,7 +527,8 @@ void COTmrProcess(CO_TMR* tmr) {
 }
 
 #if USE_REAL_TIME
-// Keeps the node serving throughout, so that deferred work is left to the mainline, except messages.
+// Keeps the node working throughout, so that deferred work is left to the mainline, except messages. A requested NMT
+// state ends the loop, and is entered at the end.
 void CONodeRealTime(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
   const port::NodeLock turn(*node);
@@ -543,15 +540,18 @@ void CONodeRealTime(CO_NODE* node) {
     node::drop_received(*node);
     return;
   }
-  const event::Serving serving(*node);
-  transmit::flush(*node);
-  CO_IF_FRM frame = wire::empty_frame();
-  while ((node->State & event::running) != 0 && receive::read(*node, frame) > 0) {
-    count(node->Count.Received);
-    node::share_out(*node, frame);
-    event::send_deferred(*node);
+  {
+    const event::Serving serving(*node);
+    transmit::flush(*node);
+    CO_IF_FRM frame = wire::empty_frame();
+    while ((node->Pending & event::mode) == 0 && receive::read(*node, frame) > 0) {
+      count(node->Count.Received);
+      node::share_out(*node, frame);
+      event::send_deferred(*node);
+    }
+    tmr::run_real_time(node->Tmr);
   }
-  tmr::run_real_time(node->Tmr);
+  node::run_pending(*node, event::mode);
 }
 #endif
 

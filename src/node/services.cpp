@@ -36,8 +36,9 @@ namespace {
 bool no_frames(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
 
 #if CO_TPDO_N > 0
-// RPDOs and TPDOs are initialised together, by the RPDOs if there are any.
+// RPDOs and TPDOs are initialised and configured together, by the RPDOs if there are any.
 constexpr auto init_tpdos = CO_RPDO_N > 0 ? nullptr : pdo::init;
+constexpr auto configure_tpdos = CO_RPDO_N > 0 ? nullptr : pdo::configure_changed;
 #endif
 #if USE_MPDO
 constexpr auto receive_mpdo = CO_RPDO_N > 0 ? mpdo::on_frame : no_frames;
@@ -75,10 +76,11 @@ constexpr Service table[] = {
     {Id::mpdo, CO_PDO_ALLOWED, 1, mpdo::init, receive_mpdo, no_frames, nullptr, mpdo::on_free, nullptr},
 #endif
 #if CO_RPDO_N > 0
-    {Id::rpdo, CO_PDO_ALLOWED, 0, pdo::init, pdo::on_frame, no_frames, pdo::on_mode_rpdos, nullptr, nullptr},
+    {Id::rpdo, CO_PDO_ALLOWED, 0, pdo::init, pdo::on_frame, no_frames, pdo::on_mode_rpdos, nullptr,
+     pdo::configure_changed},
 #endif
 #if CO_TPDO_N > 0
-    {Id::tpdo, CO_PDO_ALLOWED, 0, init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, nullptr, nullptr},
+    {Id::tpdo, CO_PDO_ALLOWED, 0, init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, nullptr, configure_tpdos},
 #endif
 #if USE_GFC
     {Id::gfc, CO_PDO_ALLOWED, 0, gfc::init, gfc::on_frame, no_frames, nullptr, nullptr, nullptr},
@@ -430,35 +432,40 @@ void enter(CO_NODE& node, CO_MODE mode) {
   if (mode == CO_INVALID) {
     transmit::clear(node);
     node.Paused = 0;
+    node.Pending = 0;
     port::can_close(node);
   }
 }
 
 }  // namespace
 
-// Calls CONmtModeChange(), which may request another state and so call this function again: the outermost call enters
-// the state that was requested last. A CONodeStop() cannot be revoked, and only CONodeInit() ends CO_INVALID. Deferred
-// messages are sent before, because the next state may not permit them.
-void event::change_mode(CO_NODE& node, CO_MODE mode) {
+// Enters the requested NMT state, if it is another one. A state that CONmtModeChange() or a service requests replaces
+// the one to be entered, or follows the one just entered. Messages that were deferred before are sent before, because
+// the next state may not permit them. Resets that are requested while the node is started are dropped.
+void event::enter_requested_mode(CO_NODE& node) {
   CO_NMT& nmt = node.Nmt;
-  if (nmt.Mode == CO_INVALID && mode > CO_INIT) {
-    return;
-  }
-  if ((node.State & changing) != 0) {
-    nmt.Next = nmt.Next == CO_INVALID ? CO_INVALID : mode;
-    return;
-  }
-  nmt.Next = mode;
-  node.State |= changing;
-  while (nmt.Mode != nmt.Next) {
+  const bool starts = nmt.Mode == CO_INIT;
+  while ((node.Pending & event::mode) != 0) {
+    event::send_deferred(node);
+    event::remove(node, event::mode);
     const CO_MODE next = nmt.Next;
-    send_deferred(node);
-    callback::change_mode(node, next);
-    if (nmt.Next == next) {
-      enter(node, next);
+    if (next != nmt.Mode) {
+      callback::change_mode(node, next);
+      if (next == nmt.Next) {
+        enter(node, next);
+      }
     }
   }
-  node.State &= static_cast<uint8_t>(~changing);
+  if (starts) {
+    event::forget_resets(node);
+  }
+}
+
+void event::request_mode(CO_NODE& node, CO_MODE requested) {
+  if (node.Nmt.Next != requested && node.Nmt.Next != CO_INVALID) {
+    node.Nmt.Next = requested;
+    defer(node, mode);
+  }
 }
 
 }  // namespace co

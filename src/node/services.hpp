@@ -17,7 +17,7 @@ struct Service {
   bool (*on_remote)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);  // remote frame; false: malformed
   void (*on_mode)(CO_NODE& node);                                             // the NMT state has changed
   bool (*on_free)(CO_NODE& node, uint16_t number);  // transmit::offer() may succeed now; true: frames were sent
-  void (*configure)(CO_NODE& node);                 // COB-IDs have changed
+  void (*configure)(CO_NODE& node);                 // parameters have changed
 };
 
 namespace services {
@@ -77,7 +77,7 @@ inline void forget_application(CO_NODE&) {}
 [[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame);
 #endif
 
-// Reads the COB-IDs of SDO servers and clients from the dictionary again.
+// Reads the COB-IDs of SDO servers and clients and the parameters of changed PDOs from the dictionary again.
 void configure(CO_NODE& node);
 
 // Finds the mapped objects of PDOs, SRDOs and recorders in the dictionary again: value of CO_NODE.Remap, so that only

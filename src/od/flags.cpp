@@ -134,11 +134,11 @@ void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) {
     return;
   }
   CO_NODE& node = *od::owner_of(*entry).Node;
+  const event::Call call(node);
   od::mirror(*entry, subIndex, false);
   od::clear_sent(node, pdo::number_of(node, *obj));
   const uint32_t key = obj->Key;
   error::report(node, pdo::request_object(node, *obj), key);
-  event::run_deferred(node);
 }
 
 bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex) {
@@ -174,13 +174,13 @@ void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t f
   if ((flags & od::received) != 0) {
     od::clear_received(node, number);
   }
+  const event::Call call(node);
   OD_flagsPDO_t left = (flags & od::sent) >> 1;
   for (unsigned tpdo = 0; left != 0; ++tpdo, left >>= 1) {
     if ((left & 1U) != 0) {
       od::request(node, number, tpdo);
     }
   }
-  event::run_deferred(node);
 }
 
 }  // extern "C"

@@ -54,9 +54,8 @@ ODR_t command(const OD_t* od, uint8_t sub, uint16_t index, uint32_t signature) {
   if (node.Dict.Root != od->Table) {
     return ODR_OD_MISSING;
   }
-  const ODR_t result = result_of(node, *obj, obj::write(*obj, node, &signature, sizeof signature));
-  event::run_deferred(node);
-  return result;
+  const event::Call call(node);
+  return result_of(node, *obj, obj::write(*obj, node, &signature, sizeof signature));
 }
 
 }  // namespace

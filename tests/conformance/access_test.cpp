@@ -217,11 +217,11 @@ TEST_CASE("access hook, SDO: a reset that it requests is carried out after the a
   }
 }
 
-TEST_CASE("access hook, SDO: a node that it stops sends no answer and writes nothing") {
+TEST_CASE("access hook, SDO: a node that it stops sends no answer") {
   for (const char* request : {"601#2F01200055000000", "601#2104200004000000", "601#4008100000000000"}) {
     CAPTURE(request);
     AccessLog log;
-    Fixture node(log.setup());
+    Fixture node(log.setup().may_change(0x2001, 0));
     log.on_sdo = [](CO_NODE& self, const CO_ACCESS_SDO&) {
       CONodeStop(&self);
       return 0U;
@@ -229,21 +229,20 @@ TEST_CASE("access hook, SDO: a node that it stops sends no answer and writes not
     node.rx(request);
     node.silent();
     CHECK(node.mode() == CO_INVALID);
-    CHECK(node.objects.u8 == 0x11);
     CHECK(node.armed_timers() == 0);
   }
 }
 
-TEST_CASE("access hook, SDO: if it sets the state Stopped the request is not answered and nothing is written") {
+TEST_CASE("access hook, SDO: if it sets the state Stopped the request is answered before") {
   AccessLog log;
   Fixture node(log.setup());
   log.on_sdo = [](CO_NODE& self, const CO_ACCESS_SDO&) {
     CONmtSetMode(&self.Nmt, CO_STOP);
     return 0U;
   };
-  node.rx("601#2F01200055000000");
-  node.silent();
-  CHECK(node.objects.u8 == 0x11);
+  node.ask("601#2F01200055000000", "581#6001200000000000");
+  CHECK(node.objects.u8 == 0x55);
+  CHECK(node.mode() == CO_STOP);
   log.on_sdo = nullptr;
   node.rx("000#8001");
   node.ask("601#2F01200055000000", "581#6001200000000000");

@@ -202,11 +202,11 @@ TEST_CASE("1029h: two nodes with missing heartbeats cause one reaction each, non
   node.rx("706#05");
   node.record.clear();
   node.after(100ms);
-  node.told("mode PREOP, 5 missing");
+  node.told("5 missing, mode PREOP");
   node.emergency("081#3081110000050000");
   node.rx("000#0101");
   node.after(50ms);
-  node.told("mode OPERATIONAL, mode PREOP, 6 missing");
+  node.told("mode OPERATIONAL, 6 missing, mode PREOP");
   node.emergency("081#3081110000060000");
   node.rx("000#0101");
   node.record.clear();
@@ -222,7 +222,7 @@ TEST_CASE("1029h: a missing heartbeat is reported before the node is stopped [B1
   node.rx("705#05");
   node.after(100ms);
   node.emergency("081#3081110000050000");
-  node.told("5 OPERATIONAL, mode STOP, 5 missing");
+  node.told("5 OPERATIONAL, 5 missing, mode STOP");
 }
 
 #endif

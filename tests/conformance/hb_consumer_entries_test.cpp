@@ -376,7 +376,7 @@ TEST_CASE("heartbeat consumer: a callback may reset or stop the node [Q9] [T14]"
     node.after(100ms);
     node.told(std::string("5 OPERATIONAL, 6 OPERATIONAL, mode ") + (stop ? "INVALID" : "INIT, mode PREOP"));
 #if USE_EMCY
-    stop ? node.tx(five_missing) : node.tx({five_missing, "701#00"});
+    stop ? node.silent() : node.tx({five_missing, "081#3081110000060000", "701#00"});
 #else
     stop ? node.silent() : node.tx("701#00");
 #endif

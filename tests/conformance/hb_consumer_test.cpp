@@ -74,7 +74,7 @@ TEST_CASE("heartbeat consumer: a missing node is one error but a callback and an
   node.rx("705#05");
   node.told("mode OPERATIONAL, 5 OPERATIONAL");
   node.after(100ms);
-  node.told("mode PREOP, 5 missing");
+  node.told("5 missing, mode PREOP");
   node.emergency(five_missing);
   node.rx("000#0101");
   node.told("mode OPERATIONAL");
@@ -92,7 +92,7 @@ TEST_CASE("heartbeat consumer: a missing node is one error but a callback and an
   node.told("5 OPERATIONAL");
   node.emergency(five_back);
   node.after(100ms);
-  node.told("mode PREOP, 5 missing");
+  node.told("5 missing, mode PREOP");
   node.emergency(five_missing);
   CHECK(CONmtGetHbEvents(&node->Nmt, 5) == 1);
 }
@@ -296,7 +296,7 @@ TEST_CASE("heartbeat consumer: reset node and reset communication restart it [D2
       node.rx("000#0101");
       node.rx("705#05");
       node.after(100ms);
-      node.told("mode OPERATIONAL, 5 OPERATIONAL, mode PREOP, 5 missing");
+      node.told("mode OPERATIONAL, 5 OPERATIONAL, 5 missing, mode PREOP");
       node.emergency(five_missing);
     }
   }

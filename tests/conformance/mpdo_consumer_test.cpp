@@ -357,7 +357,7 @@ TEST_CASE("MPDO destination: a type function may stop or reset the node and chan
     node.start();
     node.rx("201#81FF220000000000");
     node.frames();
-    CHECK_FALSE(was_received(node, 0));
+    CHECK(was_received(node, 0) == (what == Deed::stop));
     CHECK(node.mode() == (what == Deed::stop ? CO_STOP : what == Deed::reset ? CO_PREOP : CO_OPERATIONAL));
     node.rx("000#0101");
     node.frames();

@@ -838,13 +838,12 @@ CO_ERR stop_node(CO_OBJ*, CO_NODE* node, void*, std::uint32_t) {
 }
 std::uint32_t size_of_long(CO_OBJ*, CO_NODE*, std::uint32_t) { return 4; }
 
-TEST_CASE("1020h: a type of the application at sub-index 2 that stops the node leaves no answer [S7] [Q9]") {
+TEST_CASE("1020h: a type of the application at sub-index 2 may stop the node, after the answer [S7] [Q9]") {
   const CO_OBJ_TYPE stopping = {size_of_long, nullptr, nullptr, stop_node, nullptr};
   Device device;
   device.date = 5;
   Fixture node(device.setup().with({CO_KEY(0x1020, 2, CO_OBJ_____RW), &stopping, 0}));
-  node.rx("601#2300230201000000");
-  node.silent();
+  node.ask("601#2300230201000000", "581#6000230200000000");
   CHECK(node.mode() == CO_STOP);
   CHECK(device.date == 0);
   CHECK(device.ram[1].number == 1);

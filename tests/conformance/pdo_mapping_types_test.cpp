@@ -315,7 +315,7 @@ CO_ERR read_one(CO_OBJ*, CO_NODE*, void* buffer, std::uint32_t) {
   return CO_ERR_NONE;
 }
 
-TEST_CASE("PDO layout: while a mapping is resolved a Size function cannot configure a PDO") {
+TEST_CASE("PDO layout: a Size function may configure a PDO, also while its mapping is resolved") {
   const CO_OBJ_TYPE type = {size_that_maps, nullptr, read_one, nullptr, nullptr};
   PdoTable table;
   table.tpdo[0].on(0x40000181, 255, {0x22010108, 0x23000008, 0x22020110});
@@ -325,12 +325,18 @@ TEST_CASE("PDO layout: while a mapping is resolved a Size function cannot config
   CHECK(node.set(0x1A00, 0, 1, 0) == 0);
   CHECK(node.set(0x1A00, 1, 4, 0x22010208) == 0);
   CHECK(node.set(0x1A00, 3, 4, 0x22020210) == 0);
+  node.may_change(0x1400, 1);
+  node.may_change(0x1400, 2);
+  node.may_change(0x1800, 1);
+  node.may_change(0x1800, 2);
   attempts_are_on = true;
   CHECK(node.set(0x1A00, 0, 1, 3) == 0);
   CHECK(node.set(0x1800, 1, 4, 0x40000181) == 0);
   attempts_are_on = false;
   CHECK(attempts.size() >= 8);
-  for (const CO_ERR err : attempts) CHECK(err == CO_ERR_OBJ_STATE);
+  for (const CO_ERR err : attempts) CHECK(err == CO_ERR_NONE);
+  CHECK(node.request(0) == CO_ERR_TPDO_COM_OBJ);  // switched off by the last write
+  CHECK(node.set(0x1800, 1, 4, 0x40000181) == 0);
   node.trigger(0);
   node.tx("181#21552122");
 }

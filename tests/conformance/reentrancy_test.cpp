@@ -214,7 +214,7 @@ TEST_CASE("re-entrancy: a reset by the master drops frames that a reset by the a
 // Lets time pass, and runs the timers, like a type function that waits for a slow memory.
 void wait(Fixture& node, Time time) {
   const OutsideStack outside;
-  node.after(time);
+  node.idle(time);
 }
 
 struct Step {

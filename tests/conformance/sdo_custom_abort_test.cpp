@@ -122,12 +122,9 @@ struct TwoTransfers : LoggedStream, Fixture {
   }
 };
 
-void end_other_transfers(CO_NODE* node) {
-  CONmtSetMode(&node->Nmt, CO_STOP);
-  CONmtSetMode(&node->Nmt, CO_PREOP);
-}
+void end_other_transfers(CO_NODE* node) { CONmtSetMode(&node->Nmt, CO_STOP); }
 
-TEST_CASE("SDO custom abort: set before or after the type function ends another transfer, it is the answer") {
+TEST_CASE("SDO custom abort: set before or after the type function leaves the NMT state, it is the answer") {
   for (const bool before : {true, false}) {
     CAPTURE(before);
     LoggedStream refusing;
@@ -145,6 +142,7 @@ TEST_CASE("SDO custom abort: set before or after the type function ends another 
     TwoTransfers node(refusing.value(0x3101));
     node.ask("601#2301310001020304", "581#8001310078563412");
     CHECK(node.log.back() == "end up 08000022");
+    node.rx("000#8001");
     node.ask("601#4001310000000000", "581#8001310078563412");
   }
 }

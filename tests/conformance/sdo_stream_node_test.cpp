@@ -33,13 +33,14 @@ const auto reset_node = [](CO_OBJ*, CO_NODE* node) {
   return CO_ERR_NONE;
 };
 
-TEST_CASE("SDO stream types: if Begin enters Stopped then End is called once and no answer is sent [Q9] [N8]") {
+TEST_CASE("SDO stream types: if Begin enters Stopped then End is called once, after the answer [Q9] [N8]") {
   for (const char* request : {"601#2100300014000000", "601#4000300000000000", "601#2B00300011220000"}) {
     CAPTURE(std::string(request));
     Stream node;
     node.on_begin = stop_sdo;
     node.rx(request);
-    node.silent();
+    CHECK(node.frames().size() == 1);
+    CHECK(node.mode() == CO_STOP);
     CHECK(count_ends(node.log) == 1);
     CHECK(node.log.back().substr(0, 3) == "end");
     node.rx("000#8001");
@@ -68,13 +69,14 @@ TEST_CASE("SDO stream types: if End requests a reset the download is answered be
 }
 
 TEST_CASE(
-    "SDO stream types: if End enters Stopped or calls CONodeStop it is called once and no answer is sent [Q9] [N8]") {
-  for (const auto& action : {std::function<CO_ERR(CO_OBJ*, CO_NODE*)>(stop_sdo), {stop_node}}) {
+    "SDO stream types: if End enters Stopped it is called once before the answer, and CONodeStop prevents it [Q9] "
+    "[N8]") {
+  for (const bool stops_node : {false, true}) {
     Stream node;
-    node.on_end = action;
+    node.on_end = stops_node ? std::function<CO_ERR(CO_OBJ*, CO_NODE*)>(stop_node) : stop_sdo;
     node.ask("601#2100300002000000", "581#6000300000000000");
     node.rx("601#0B01020000000000");
-    node.silent();
+    stops_node ? node.silent() : node.tx("581#2000000000000000");
     CHECK(count_ends(node.log) == 1);
   }
 }

@@ -297,7 +297,7 @@ TEST_CASE("SRDO faults: at the end of Operational a callback may delete an SRDO,
   }
 }
 
-TEST_CASE("SRDO faults: the callback may leave Operational and then no EMCY is sent [SR14]") {
+TEST_CASE("SRDO faults: the callback may leave Operational, after the EMCY [SR14]") {
   Established node;
   callbacks().srdo_change = [&](CO_NODE* of, std::uint8_t, CO_SRDO_STATE to) {
     if (to == CO_SRDO_ERR_SHORT) CONmtSetMode(&of->Nmt, CO_PREOP);
@@ -306,7 +306,7 @@ TEST_CASE("SRDO faults: the callback may leave Operational and then no EMCY is s
   CHECK(node.mode() == CO_PREOP);
   CHECK(node.state() == CO_SRDO_NOT_OPERATIONAL);
   CHECK(node.objects.error_register == 0);
-  node.silent();
+  node.tx({"081#0082110000011309", "081#0000000000011309"});
 }
 
 #if USE_EMCY && USE_EMCY_QUEUE

@@ -247,7 +247,7 @@ TEST_CASE("SRDO producer: an object that cannot be read ends the SRDO [SR17]") {
   CHECK(node.state() == CO_SRDO_ERR_INTERNAL);
 }
 
-TEST_CASE("SRDO producer: a Read function may leave Operational and nothing is sent then [SR17]") {
+TEST_CASE("SRDO producer: a Read function may leave Operational, after the pair [SR17]") {
   static const CO_OBJ_TYPE leaving = {[](CO_OBJ*, CO_NODE*, std::uint32_t) { return std::uint32_t{1}; }, nullptr,
                                       [](CO_OBJ*, CO_NODE* of, void* buffer, std::uint32_t) {
                                         CONmtSetMode(&of->Nmt, CO_PREOP);
@@ -261,7 +261,7 @@ TEST_CASE("SRDO producer: a Read function may leave Operational and nothing is s
   SrdoNode node(table, [](Setup& setup) { setup.with({CO_KEY(0x2311, 1, CO_OBJ____PR_), &leaving, &data}); });
   node.start();
   node.after(100ms);
-  node.silent();
+  node.tx({"109#00", "10A#FF"});
   CHECK(node.mode() == CO_PREOP);
   CHECK(node.state() == CO_SRDO_NOT_OPERATIONAL);
 }

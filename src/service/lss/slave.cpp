@@ -170,7 +170,8 @@ void switch_rate(void* node_pointer) {
 // Returns false if the application has stopped the node.
 bool prepare_switch(CO_NODE& node, CO_MODE mode) {
   if (node.Nmt.Mode > CO_INIT && mode > CO_INIT && mode < CO_MODE_NUM) {
-    event::change_mode(node, mode);
+    event::request_mode(node, mode);
+    event::enter_requested_mode(node);
   }
   return event::is_allowed(node, CO_LSS_ALLOWED);
 }

@@ -88,13 +88,11 @@ bool find_and_write(CO_NODE& node, CO_RPDO& pdo, CO_IF_FRM& frame) {
   return true;
 }
 
-// Processes a frame. Callbacks may end Operational or change the PDO. Returns false if the frame is too short or of the
-// wrong kind.
+// Processes a frame. Returns false if it is too short or of the wrong kind.
 bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
   CO_IF_FRM copy = frame;
   const uint32_t low = wire::get_low(frame);
   const bool is_short = frame.DLC < wire::mpdo_dlc;
-  pdo::set(pdo.Map, pdo::served);
   pdo::report(pdo, pdo::too_short, is_short ? unsigned{pdo::too_short} : 0U);
   if (is_short || !is_kind(pdo.Map, low)) {
     return false;
@@ -105,7 +103,7 @@ bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
   if (pdo.Deadline != 0) {
     pdo::restart_deadline(pdo);
   }
-  if (pdo::is_left_to_stack(node, pdo, copy) && find_and_write(node, pdo, copy)) {
+  if (callback::receive_pdo(node, copy) == 0 && find_and_write(node, pdo, copy)) {
     callback::update_pdo(node, pdo);
   }
   return true;

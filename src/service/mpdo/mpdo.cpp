@@ -90,9 +90,8 @@ extern "C" CO_ERR COTPdoSendTo(CO_NODE* node, uint16_t num, uint8_t node_id, uin
   if (node_id > wire::mpdo_node_id) {
     return CO_ERR_BAD_ARG;
   }
-  const CO_ERR err = mpdo::send_to(*node, num, node_id, key, value);
-  event::run_deferred(*node);
-  return err;
+  const event::Call call(*node);
+  return mpdo::send_to(*node, num, node_id, key, value);
 }
 
 #endif

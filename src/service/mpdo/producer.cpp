@@ -24,9 +24,6 @@ CO_TPDO* producer(CO_NODE& node) {
 // because it may contain another object.
 CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
   callback::transmit_pdo(*pdo.Node, frame);
-  if (!pdo::has(pdo.Map, pdo::served)) {
-    return pdo::end_of(pdo);
-  }
   if (!transmit::send_for_application(*pdo.Node, frame)) {
     return CO_ERR_IF_CAN_SEND;
   }
@@ -39,9 +36,6 @@ CO_ERR read(CO_TPDO& pdo, uint16_t entry, CO_IF_FRM& frame) {
   CO_NODE& node = *pdo.Node;
   CO_OBJ* const obj = object_at(node, entry);
   const CO_ERR err = obj != nullptr ? map_object(node, pdo.Map, *obj) : CO_ERR_OBJ_NOT_FOUND;
-  if (!pdo::has(pdo.Map, pdo::served)) {
-    return pdo::end_of(pdo);  // the Size function has ended the PDO
-  }
   if (err != CO_ERR_NONE) {
     error::report(node, err, obj != nullptr ? obj->Key : 0);
     return err;
@@ -57,9 +51,6 @@ CO_ERR send_object(CO_TPDO& pdo, uint16_t place) {
   const uint16_t entry = node.Mpdo.Scan[place];
   CO_IF_FRM frame;
   CO_ERR err = read(pdo, entry, frame);
-  if (!pdo::has(pdo.Map, pdo::served)) {
-    return pdo::end_of(pdo);
-  }
   if (err == CO_ERR_NONE) {
     err = send(pdo, frame);
   }
@@ -98,7 +89,7 @@ CO_ERR send_pending(CO_PDO& pdo) {
     }
     const CO_ERR err = send_object(pdo, place);
     result = err != CO_ERR_NONE ? err : result;
-    goes_on = pdo::has(pdo.Map, pdo::served) && (all || err != CO_ERR_NONE);
+    goes_on = all || err != CO_ERR_NONE;
   }
   if (all && is_waiting(node)) {
     node.Paused = 1;
@@ -129,12 +120,10 @@ CO_ERR send_to(CO_NODE& node, uint16_t number, uint8_t node_id, uint32_t key, ui
     return CO_ERR_TPDO_INHIBIT;
   }
   CO_IF_FRM frame = wire::mpdo(pdo.Identifier, static_cast<uint8_t>(wire::mpdo_to_consumer | node_id), key, value);
-  pdo::set(pdo.Map, pdo::served | pdo::inhibited);
+  pdo::set(pdo.Map, pdo::inhibited);
   const CO_ERR err = send(pdo, frame);
-  if (pdo::has(pdo.Map, pdo::served)) {
-    pdo::clear(pdo.Map, pdo::served | pdo::inhibited);
-    pdo::restart(pdo);
-  }
+  pdo::clear(pdo.Map, pdo::inhibited);
+  pdo::restart(pdo);
   return err;
 }
 

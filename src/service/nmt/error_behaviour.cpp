@@ -25,9 +25,9 @@ bool react(CO_NODE& node, uint8_t sub) {
   }
   const uint8_t behaviour = behaviour_for(node, sub);
   if (behaviour == CO_ERROR_BEHAVIOUR_STOP) {
-    event::change_mode(node, CO_STOP);
+    event::request_mode(node, CO_STOP);
   } else if (behaviour != CO_ERROR_BEHAVIOUR_NONE && node.Nmt.Mode == CO_OPERATIONAL) {
-    event::change_mode(node, CO_PREOP);
+    event::request_mode(node, CO_PREOP);
   }
   return true;
 }

@@ -58,7 +58,7 @@ void obey(CO_NODE& node, const CO_IF_FRM& frame) {
     if (command.reset != 0) {
       event::defer(node, command.reset | event::commanded);
     } else {
-      event::change_mode(node, command.mode);
+      event::request_mode(node, command.mode);
     }
   }
 }
@@ -83,10 +83,8 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 }
 
 void boot(CO_NODE& node) {
-  const event::Serving serving(node);
   transmit::send_ahead(node, wire::boot_up(node.NodeId));
-  event::change_mode(node, CO_PREOP);
-  event::forget_resets(node);  // requested by callbacks: the node has just been initialised
+  event::request_mode(node, CO_PREOP);
 }
 
 }  // namespace co::nmt
@@ -121,15 +119,14 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
     nmt::boot(node);
     event::run_deferred(node);
   }
-  if (nmt->Mode != CO_INVALID) {  // false if CONmtModeChange() has stopped the node
-    event::change_mode(node, mode);
-  }
+  event::request_mode(node, mode);
   event::run_deferred(node);
 }
 
 CO_MODE CONmtGetMode(CO_NMT* nmt) {
   ASSERT_PTR_FATAL_ERR(nmt, CO_INVALID);
-  return nmt->Mode;
+  const bool is_requested = nmt->Node != nullptr && (nmt->Node->Pending & event::mode) != 0;
+  return is_requested ? nmt->Next : nmt->Mode;
 }
 
 void CONmtSetNodeId(CO_NMT* nmt, uint8_t nodeId) {

@@ -26,7 +26,7 @@ void lose_communication(CO_NODE& node);
 // Implements event::mode_for_switch().
 [[nodiscard]] CO_MODE mode_for_switch(CO_NODE& node);
 
-// Sends the boot-up message and enters Pre-operational from CO_INIT.
+// Sends the boot-up message and requests Pre-operational, in CO_INIT.
 void boot(CO_NODE& node);
 
 }  // namespace co::nmt

@@ -24,7 +24,7 @@ void on_mode(CO_NODE& node) {
   const bool first = nmt.Booting != 0;
   nmt.Booting = nmt.Mode == CO_INIT ? 1 : 0;
   if (first && nmt.Mode == CO_PREOP && starts_itself(node)) {
-    event::change_mode(node, CO_OPERATIONAL);
+    event::request_mode(node, CO_OPERATIONAL);
   }
 }
 

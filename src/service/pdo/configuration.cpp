@@ -2,6 +2,7 @@
 #include "service/pdo/configuration.hpp"
 
 #include "base/error.hpp"
+#include "base/events.hpp"
 #include "base/timer.hpp"
 #include "co_assert.h"
 #include "dictionary/types/cob_id.hpp"
@@ -130,6 +131,25 @@ void configure(CO_NODE& node, unsigned index) {
   direction_of(index) == Direction::receive ? end_rpdo(node, pdo) : end_tpdo(node, pdo);
   begin(node, pdo, index);
 }
+
+void request_configuration(CO_NODE& node, unsigned index) {
+  set(pdo_at(node, index).Map, changed);
+  event::defer(node, event::configure);
+}
+
+namespace {
+
+void configure_if_changed(CO_NODE& node, unsigned index) {
+  CO_PDO_MAP& map = pdo_at(node, index).Map;
+  if (has(map, changed)) {
+    clear(map, changed);
+    configure(node, index);
+  }
+}
+
+}  // namespace
+
+void configure_changed(CO_NODE& node) { for_each(node, configure_if_changed); }
 
 void init(CO_NODE& node) { for_each(node, init_one); }
 

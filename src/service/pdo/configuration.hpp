@@ -44,6 +44,8 @@ constexpr uint32_t key_of_tpdo(unsigned number) {
 // the PDO with them. A PDO that they do not allow does not exist; the node's error and its key name the parameter or
 // the mapping entry.
 void configure(CO_NODE& node, unsigned index);
+// Requests configure(): deferred, so that no PDO changes while it is being processed.
+void request_configuration(CO_NODE& node, unsigned index);
 
 // Resolves the mapping of the PDO, which must have at least one entry.
 [[nodiscard]] Resolved resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map);

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1400h…1BFFh: communication and mapping parameters of PDOs. [301:7.5.2.35-38]
-#include "base/events.hpp"
-#include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/cob_id.hpp"
@@ -38,11 +36,9 @@ bool is_configured(const CO_OBJ& obj) {
 }
 
 void configure(CO_NODE& node, const CO_OBJ& obj) {
-  if (!is_configured(obj)) {
-    return;
+  if (is_configured(obj)) {
+    pdo::request_configuration(node, communication_of(obj));
   }
-  pdo::configure(node, communication_of(obj));
-  routes::publish(node);
 }
 
 using Byte = integer::Number<1>;
@@ -54,10 +50,6 @@ template <class T>
 bool read_before(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& number, uint32_t size, T& before) {
   return size == sizeof before && number.Read(&obj, &node, &before, size) == CO_ERR_NONE;
 }
-
-// Returns whether a Size function of a mapped object is the caller: a PDO that it configures could be the one whose
-// mapping is being resolved.
-bool is_mapping(const CO_NODE& node) { return (node.State & event::mapping) != 0; }
 
 // Sub 1 --------------------------------------------------------------------------------------------------------------
 
@@ -76,9 +68,6 @@ bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
 }
 
 CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (is_mapping(*node)) {
-    return CO_ERR_OBJ_STATE;
-  }
   if (size != sizeof(uint32_t)) {
     return CO_ERR_BAD_ARG;
   }
@@ -106,9 +95,6 @@ bool fits_mapping(CO_NODE& node, const CO_OBJ& obj, uint8_t type) {
 }
 
 CO_ERR write_type(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (is_mapping(*node)) {
-    return CO_ERR_OBJ_STATE;
-  }
   uint8_t before = 0;
   if (!read_before(*obj, *node, COTInt8, size, before)) {
     return CO_ERR_BAD_ARG;

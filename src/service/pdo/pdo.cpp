@@ -37,21 +37,20 @@ void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj) {
   ASSERT_PTR_FATAL(tpdo);
   ASSERT_PTR_FATAL(tpdo->Node);
   CO_NODE& node = *tpdo->Node;
+  const event::Call call(node);
   const bool is_known = is_entry(node, obj);
   const uint32_t key = is_known ? obj->Key : 0;
   error::report(node, is_known ? pdo::request_object(node, *obj) : CO_ERR_TPDO_OBJ_TRIGGER, key);
-  event::run_deferred(node);
 }
 
 CO_ERR COTPdoRequest(CO_NODE* node, uint16_t num) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  CO_ERR err = CO_ERR_TPDO_NUM_TRIGGER;
-  if (is_pdo(num, CO_TPDO_N) && port::is_initialised(*node)) {
-    mpdo::mark_all(pdo::tpdos(*node).first[num]);
-    err = pdo::request(*node, num);
+  if (!is_pdo(num, CO_TPDO_N) || !port::is_initialised(*node)) {
+    return CO_ERR_TPDO_NUM_TRIGGER;
   }
-  event::run_deferred(*node);
-  return err;
+  const event::Call call(*node);
+  mpdo::mark_all(pdo::tpdos(*node).first[num]);
+  return pdo::request(*node, num);
 }
 
 bool CORPdoWasReceived(CO_NODE* node, uint16_t num) {

@@ -10,6 +10,9 @@ namespace co::pdo {
 // Configures all PDOs from the dictionary. A PDO with an invalid mapping does not exist.
 void init(CO_NODE& node);
 
+// Configures the PDOs whose parameters were changed.
+void configure_changed(CO_NODE& node);
+
 // Start PDOs when Operational is entered, and stop them when it is left.
 void on_mode_rpdos(CO_NODE& node);
 void on_mode_tpdos(CO_NODE& node);

@@ -240,9 +240,6 @@ CO_ERR copy_or_report(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Directi
   return err;
 }
 
-// Returns whether a type function has ended the PDO or renumbered the entries.
-bool is_over(const CO_NODE& node, const CO_PDO_MAP& map) { return !has(map, served) || is_numbered_anew(node); }
-
 CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
   CO_ERR result = CO_ERR_NONE;
   unsigned position = 0;
@@ -255,7 +252,7 @@ CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Dir
       const CO_ERR err = copy_or_report(node, frame, {node.Dict.Root[entry], position, length}, direction);
       result = err != CO_ERR_NONE ? err : result;
     }
-    if (is_over(node, map)) {
+    if (is_numbered_anew(node)) {
       return CO_ERR_TPDO_COM_OBJ;
     }
     position += length;
@@ -286,9 +283,7 @@ CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy auth
                                                                                          : CO_ERR_OBJ_MAP_TYPE;
 }
 
-namespace {
-
-Resolved resolve_entries(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author) {
+Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author) {
   const Direction direction = direction_of(index);
   unsigned bits = 0;
   uint8_t fitting = 0;  // entries that fit completely into the frame
@@ -329,15 +324,8 @@ Resolved resolve_entries(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP
   return {CO_ERR_NONE, 0};
 }
 
-}  // namespace
-
-Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author) {
-  const event::Mapping scope(node);
-  return resolve_entries(node, index, num, map, author);
-}
-
 CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
-  CO_ASSERT(exists(map) && has(map, served) && length_of(map) <= sizeof frame.Data);
+  CO_ASSERT(exists(map) && length_of(map) <= sizeof frame.Data);
   const bool at_once = is_copied(map) && node.Ext->OdLock == nullptr && !is_numbered_anew(node);
   return at_once ? copy_plain(node.Dict.Root, map, frame.Data, direction) : copy_locked(node, map, frame, direction);
 }

@@ -21,8 +21,7 @@ enum class MappedBy : uint8_t { designer = 0, network = CO_OBJ____P__ };
 
 // Bits of CO_PDO_MAP.Flags; tpdo.cpp and rpdo.cpp define the others.
 constexpr uint8_t transferred = 0x40;  // sent or received since the application has read it
-// The PDO is being sent or received; cleared when the PDO is changed or Operational ends.
-constexpr uint8_t served = 0x80;
+constexpr uint8_t changed = 0x80;      // configure_changed() configures the PDO
 
 [[nodiscard]] inline bool has(const CO_PDO_MAP& map, unsigned flags) { return (map.Flags & flags) != 0; }
 inline void set(CO_PDO_MAP& map, unsigned flags) { map.Flags = static_cast<uint8_t>(map.Flags | flags); }
@@ -71,10 +70,9 @@ inline void copy_data(uint8_t* to, const uint8_t* from) {
   wire::put_aligned(to + sizeof(Word), wire::get_aligned(from + sizeof(Word)));
 }
 
-// Copies the data of a frame into the objects of a PDO that is being served, or the objects into a frame, with OdLock
-// held. RPDO: objects that cannot be written become the node's error, the others are written. TPDO: returns the error
-// of an object that cannot be read. CO_ERR_TPDO_COM_OBJ: the PDO was changed meanwhile, the remaining objects are not
-// copied.
+// Copies the data of a frame into the objects of a PDO, or the objects into a frame, with OdLock held. RPDO: objects
+// that cannot be written become the node's error, the others are written. TPDO: returns the error of an object that
+// cannot be read. CO_ERR_TPDO_COM_OBJ: the entries were renumbered meanwhile, the remaining objects are not copied.
 [[nodiscard]] CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction);
 
 [[nodiscard]] inline uint16_t number_of(const CO_NODE& node, const CO_OBJ& obj) {

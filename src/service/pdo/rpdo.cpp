@@ -65,18 +65,16 @@ void write_and_mark(CO_NODE& node, CO_PDO_MAP& map, CO_IF_FRM& frame) {
 void write_stored(CO_NODE& node, CO_RPDO& pdo) {
   CO_IF_FRM frame = wire::empty_frame(0, sizeof pdo.Own.Data);
   copy_data(frame.Data, pdo.Own.Data);
-  set(pdo.Map, served);
   write_and_mark(node, pdo.Map, frame);
 }
 
 void forget_stored(CO_NODE& node) { __builtin_memset(node.RPdoFresh, 0, sizeof node.RPdoFresh); }
 
-// Processes a frame. Callbacks may end Operational or change the PDO. Returns false if the frame is too short.
+// Processes a frame. Returns false if it is too short.
 [[gnu::noinline]] bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
   if (is_switching(node) || (is_synchronous(pdo) && node.WindowOver != 0)) {
     return true;
   }
-  set(pdo.Map, served);
   if (!check_length(pdo, frame.DLC)) {
     return false;
   }
@@ -84,7 +82,7 @@ void forget_stored(CO_NODE& node) { __builtin_memset(node.RPdoFresh, 0, sizeof n
     restart_deadline(pdo);
   }
   CO_IF_FRM copy = frame;
-  if (!is_left_to_stack(node, pdo, copy)) {
+  if (callback::receive_pdo(node, copy) != 0) {
     return true;
   }
   if (is_synchronous(pdo)) {
@@ -119,13 +117,12 @@ void restart_deadline(CO_RPDO& pdo) {
   if (pdo.Deadline != 0) {
     tmr::start(*pdo.Node, pdo.Tmr, pdo.Deadline, 0, on_deadline, &pdo);
   }
-  report(pdo, late, 0);  // its callbacks may end the PDO
+  report(pdo, late, 0);
 }
 
 // Stops the deadline and resolves all faults.
 void end_rpdo(CO_NODE& node, CO_PDO& pdo) {
   tmr::stop(node, pdo.Tmr);
-  clear(pdo.Map, served);
   report(pdo, reported, 0);
   mpdo::end_rpdo(pdo);
 }
@@ -133,7 +130,7 @@ void end_rpdo(CO_NODE& node, CO_PDO& pdo) {
 // The deadline starts with the first frame.
 void begin_rpdo(CO_PDO& pdo, uint32_t identifier, uint32_t event) {
   pdo.Deadline = event;
-  pdo.Map.Flags = 0;
+  pdo.Map.Flags &= changed;
   if (USE_SYNC != 0) {
     bits::remove(pdo.Node->RPdoFresh, pdo.Number);
   }
@@ -172,8 +169,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   return process_frame(node, node.RPdo[number], frame);
 }
 
-// Writes all synchronous RPDOs of one SYNC with OdLock held, then calls their callbacks. An RPDO that was configured
-// meanwhile is no longer in the set; none is added, because frames are deferred.
+// Writes all synchronous RPDOs of one SYNC with OdLock held, then calls their callbacks.
 void apply(CO_NODE& node) {
   if (bits::is_empty(node.RPdoFresh)) {
     return;

@@ -24,16 +24,10 @@ enum RpdoFlag : uint8_t {
 [[nodiscard]] uint8_t detail_of(const CO_RPDO& pdo);
 
 // Raises or resolves the faults in flags, from too_short to late, so that those in is are raised and the others are
-// not. Each change is reported once. Callbacks may end the PDO.
+// not. Each change is reported once.
 void report(CO_RPDO& pdo, unsigned flags, unsigned is);
 
 // Restarts the deadline and resolves the fault of a missed one: a frame was received, or the deadline has changed.
 void restart_deadline(CO_RPDO& pdo);
-
-// Returns whether the stack writes the objects of a received frame, which the callback may change: neither has the
-// application processed it, nor has a callback ended the PDO.
-[[nodiscard, gnu::always_inline]] inline bool is_left_to_stack(CO_NODE& node, const CO_RPDO& pdo, CO_IF_FRM& frame) {
-  return has(pdo.Map, served) && callback::receive_pdo(node, frame) == 0 && has(pdo.Map, served);
-}
 
 }  // namespace co::pdo

@@ -30,9 +30,6 @@ bool keeps_sample(const CO_TPDO& pdo) { return USE_PDO_RTR != 0 && has(pdo.Map, 
 // Calls the callback of the application, queues the frame and marks the PDO as sent.
 CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
   callback::transmit_pdo(*pdo.Node, frame);
-  if (!has(pdo.Map, served)) {
-    return end_of(pdo);
-  }
   if (!transmit::send_process_data(*pdo.Node, frame)) {
     return CO_ERR_IF_CAN_SEND;
   }
@@ -53,9 +50,6 @@ CO_ERR serve(CO_TPDO& pdo, Use use) {
   if (use == Use::send_sampled) {
     copy_data(frame.Data, pdo.Own.Data);
   } else if (const CO_ERR err = copy_objects(*pdo.Node, pdo.Map, frame, Direction::transmit); err != CO_ERR_NONE) {
-    if (!has(pdo.Map, served)) {
-      return end_of(pdo);
-    }
     if (err == CO_ERR_TPDO_COM_OBJ) {  // the error of an object was already reported with the object's key
       error::report(*pdo.Node, err);
     }
@@ -192,20 +186,15 @@ bool count_sync(CO_TPDO& pdo, uint8_t counter) {
   return true;
 }
 
-// Processes a SYNC. A callback may have changed the transmission type meanwhile. Changes of mapped objects by their
-// Read functions trigger no further transmission of this PDO.
+// Processes a SYNC. Changes of mapped objects by their Read functions trigger no further transmission of this PDO.
 void process_sync(CO_TPDO& pdo, uint8_t counter) {
-  if (!is_synchronous(pdo.Type)) {
-    return;
-  }
   const bool is_due = count_sync(pdo, counter);
   clear(pdo.Map, sampled);
   if (!is_due && !keeps_sample(pdo)) {
     return;
   }
-  set(pdo.Map, served);
   const CO_ERR err = serve(pdo, is_due ? Use::send : Use::sample);
-  clear(pdo.Map, served | marked);
+  clear(pdo.Map, marked);
   if (is_due && err != CO_ERR_NONE && pdo.Type == type_acyclic) {
     set(pdo.Map, pending);
   }
@@ -234,7 +223,7 @@ CO_ERR trigger_marked(CO_NODE& node) {
 
 // Starts a PDO: when Operational is entered, or when the PDO is configured in Operational.
 void begin(CO_TPDO& pdo) {
-  constexpr auto lasting = static_cast<uint8_t>(remote | transferred);
+  constexpr auto lasting = static_cast<uint8_t>(remote | transferred | changed);
   if (!exists(pdo.Map)) {
     return;
   }
@@ -264,15 +253,13 @@ void withdraw_synchronous(CO_NODE& node) {
 }  // namespace
 
 CO_ERR send_event(CO_TPDO& pdo, Cause cause) {
-  set(pdo.Map, served | inhibited);
+  set(pdo.Map, inhibited);
   const CO_ERR err = mpdo::is_sam(pdo.Map) ? mpdo::send_pending(pdo) : serve(pdo, Use::send);
-  if (has(pdo.Map, served)) {
-    clear(pdo.Map, served | inhibited | pending | marked);
-    if (mpdo::is_pending(pdo)) {
-      set(pdo.Map, pending);
-    }
-    restart_by(pdo, cause);
+  clear(pdo.Map, inhibited | pending | marked);
+  if (mpdo::is_pending(pdo)) {
+    set(pdo.Map, pending);
   }
+  restart_by(pdo, cause);
   return err;
 }
 
@@ -280,7 +267,6 @@ void restart(CO_TPDO& pdo) { restart_by(pdo, Cause::event); }
 
 void end_tpdo(CO_NODE& node, CO_PDO& pdo) {
   tmr::stop(node, pdo.Tmr);
-  clear(pdo.Map, served);
   transmit::withdraw(node, pdo.Identifier);
 }
 
@@ -288,7 +274,7 @@ void begin_tpdo(CO_PDO& pdo, uint32_t identifier, Remote requests) {
   CO_NODE& node = *pdo.Node;
   const bool asked = USE_PDO_RTR != 0 && requests == Remote::answered && exists(pdo.Map) && !mpdo::is_mpdo(pdo.Map);
   pdo.Identifier = identifier;
-  pdo.Map.Flags = asked ? remote : 0;
+  pdo.Map.Flags = static_cast<uint8_t>((pdo.Map.Flags & changed) | (asked ? unsigned{remote} : 0U));
   mpdo::begin_tpdo(pdo, pdo.Number);
   if (USE_SYNC != 0) {
     exists(pdo.Map) && is_synchronous(pdo.Type) ? bits::add(node.TPdoSync, pdo.Number)
@@ -337,20 +323,17 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
       (void)send_event(pdo, Cause::event);
     }
   } else if (pdo.Type == type_rtr || has(pdo.Map, sampled)) {
-    set(pdo.Map, served);
     (void)serve(pdo, pdo.Type == type_rtr ? Use::send : Use::send_sampled);
-    clear(pdo.Map, served | marked);
+    clear(pdo.Map, marked);
   }
   return true;
 }
 
 void sample(CO_NODE& node, uint8_t counter) {
   node.WindowOver = 0;
-  bits::for_each(node.TPdoSync, [&](unsigned n) {
-    if (is_operational(node)) {
-      process_sync(node.TPdo[n], counter);
-    }
-  });
+  if (is_operational(node)) {
+    bits::for_each(node.TPdoSync, [&](unsigned n) { process_sync(node.TPdo[n], counter); });
+  }
 }
 
 void end_window(CO_NODE& node) {
@@ -377,7 +360,7 @@ CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
 }
 
 // Changes by Read functions and callbacks of the PDOs are sent in a second round; changes in that round wait for the
-// next event. A callback that changes the NMT state calls this function again: before each round nothing is deferred.
+// next event.
 CO_ERR send_marked(CO_NODE& node) {
   CO_ASSERT(node.OdLocked == 0);
   const event::Serving serving(node);

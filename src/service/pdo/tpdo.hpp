@@ -24,11 +24,6 @@ enum class Cause : uint8_t { event, timer };
 
 [[nodiscard]] inline bool is_operational(const CO_NODE& node) { return event::is_allowed(node, CO_PDO_ALLOWED); }
 
-// Returns why a PDO was not sent: the application has ended Operational, or changed the PDO, meanwhile.
-[[nodiscard]] inline CO_ERR end_of(const CO_TPDO& pdo) {
-  return is_operational(*pdo.Node) ? CO_ERR_TPDO_COM_OBJ : CO_ERR_NMT_MODE;
-}
-
 // Sends an event-driven PDO. On an error nothing is sent later, but the event timer is restarted. Events for this PDO
 // from its own callbacks are ignored while it is being sent.
 CO_ERR send_event(CO_TPDO& pdo, Cause cause);

@@ -337,9 +337,8 @@ CO_ERR CORecorderSample(CO_RECORDER* recorder) {
   if (!recorder::is_started(recorder)) {
     return CO_ERR_BAD_ARG;
   }
-  const CO_ERR err = recorder::sample(*recorder);
-  event::run_deferred(*recorder->Node);
-  return err;
+  const event::Call call(*recorder->Node);
+  return recorder::sample(*recorder);
 }
 
 CO_ERR CORecorderClear(CO_RECORDER* recorder) {

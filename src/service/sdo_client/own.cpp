@@ -124,16 +124,11 @@ uint32_t access_own(CO_CSDO& client) {
   return taken ? CO_SDO_ERR_TOS_STATE : transfer(client, *obj, direction);
 }
 
-// Requests of type functions are deferred until the access is complete; a change of the NMT state may have ended the
-// transfer meanwhile.
 void run_own_access(void* client_pointer) {
   CO_CSDO& client = *static_cast<CO_CSDO*>(client_pointer);
-  const event::Serving serving(*client.Node);
-  set_state(client, State::own_served);
+  set_state(client, State::own_running);
   const uint32_t code = access_own(client);
-  const bool is_over = state_of(client) == State::own_ended;
-  set_state(client, State::own);
-  finish(client, is_over ? client.Ticks : code);
+  finish(client, state_of(client) == State::own_running ? code : CO_SDO_ERR_TOS_LOCAL);
 }
 
 }  // namespace
@@ -145,12 +140,12 @@ void queue_own_access(CO_CSDO& client) {
   tmr::start(*client.Node, client.Tmr, 1, 0, run_own_access, &client);
 }
 
-bool defer_end_of_own_access(CO_CSDO& client, uint32_t code) {
-  if (state_of(client) == State::own_served) {
-    set_state(client, State::own_ended);
-    client.Ticks = code;
+bool cancel_running_own_access(CO_CSDO& client) {
+  const bool is_running = state_of(client) == State::own_running || state_of(client) == State::own_cancelled;
+  if (is_running) {
+    set_state(client, State::own_cancelled);
   }
-  return state_of(client) == State::own_ended;
+  return is_running;
 }
 
 }  // namespace co::sdo_client

@@ -199,11 +199,6 @@ void start_timeout(CO_CSDO& client) {
 }
 
 void finish(CO_CSDO& client, uint32_t code) {
-  if constexpr (has_own) {
-    if (defer_end_of_own_access(client, code)) {
-      return;
-    }
-  }
   const uint32_t key = client.Key;
   tmr::stop(*client.Node, client.Tmr);
   set_state(client, State::idle);
@@ -321,6 +316,11 @@ CO_ERR COCSdoCancel(CO_CSDO* csdo) {
   }
   if (csdo->State != CO_CSDO_STATE_BUSY) {
     return CO_ERR_SDO_OFF;
+  }
+  if constexpr (sdo_client::has_own) {
+    if (sdo_client::cancel_running_own_access(*csdo)) {
+      return CO_ERR_NONE;
+    }
   }
   sdo_client::abort_transfer(*csdo, CO_SDO_ERR_TOS_LOCAL);
   return CO_ERR_NONE;

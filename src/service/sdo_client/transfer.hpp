@@ -12,9 +12,9 @@ namespace co::sdo_client {
 // State of the protocol: the response that the client awaits.
 enum class State : uint8_t {
   idle,
-  own,         // access to the own dictionary is queued
-  own_served,  // type functions of that access may be running: the callback is deferred
-  own_ended,   // that access was ended meanwhile: Ticks holds the abort code
+  own,            // access to the own dictionary is queued
+  own_running,    // type functions of that access may be running
+  own_cancelled,  // one of them has cancelled the transfer
   download_initiated,
   download,
   upload_initiated,
@@ -120,7 +120,7 @@ void handle_quarter(CO_CSDO& client);
 // Starts the access by a timer, so that the callback never runs before the request function has returned.
 void queue_own_access(CO_CSDO& client);
 
-// Returns whether type functions of the access may be running, and stores the abort code with which it then ends.
-[[nodiscard]] bool defer_end_of_own_access(CO_CSDO& client, uint32_t code);
+// Cancels the access to the own dictionary if it is running: its callback is called after it. Returns whether it is.
+[[nodiscard]] bool cancel_running_own_access(CO_CSDO& client);
 
 }  // namespace co::sdo_client

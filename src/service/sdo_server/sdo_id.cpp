@@ -33,7 +33,7 @@ bool is_allowed(const CO_OBJ& obj, uint32_t before, uint32_t value) {
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   const CO_ERR err = cob_id::write(*obj, *node, buffer, size, is_allowed);
   if (err == CO_ERR_NONE) {
-    event::defer(*node, event::configure_sdo);
+    event::defer(*node, event::configure);
   }
   return err;
 }

@@ -71,29 +71,16 @@ bool is_segment(const CO_SDO& channel, const CO_IF_FRM& frame) {
          (state == State::block_download || is_last_segment_again(channel, frame));
 }
 
-// Ends the transfer, without an abort if SDO is no longer allowed.
-void give_up(CO_SDO& channel, uint32_t abort) {
-  CO_NODE& node = *channel.Node;
-  if (!event::is_allowed(node, CO_SDO_ALLOWED)) {
-    on_mode(node);
-    return;
-  }
-  abort_transfer(channel, abort);
-}
-
-// Runs a service. The channel is busy while type functions run, because they may change the NMT state.
+// Runs a service, and sends its answer or aborts the transfer.
 inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, CO_OBJ* found) {
   CO_NODE& node = *channel.Node;
-  CO_ASSERT(channel.Idle != busy && state_of(channel) < State::count);
+  CO_ASSERT(state_of(channel) < State::count);
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
-  const uint8_t idle = channel.Idle;
-  channel.Idle = busy;
   access::set_request_object(node, channel.Obj);
   const uint32_t abort = service(channel, request, answer, found);
-  channel.Idle = idle;
   node.RequestObj = nullptr;
-  if (abort != no_abort || !event::is_allowed(node, CO_SDO_ALLOWED)) {
-    give_up(channel, abort);
+  if (abort != no_abort) {
+    abort_transfer(channel, abort);
   } else if (answer.DLC != 0) {
     transmit::send(node, answer);
   }
@@ -206,9 +193,7 @@ void on_mode(CO_NODE& node) {
     return;
   }
   for (CO_SDO& channel : node.Sdo) {
-    if (channel.Idle != busy) {
-      close(channel, CO_SDO_ERR_TOS_STATE);
-    }
+    close(channel, CO_SDO_ERR_TOS_STATE);
     transmit::withdraw(node, channel.TxId);
     transmit::withdraw(node, channel.WasTxId);
   }

@@ -22,7 +22,7 @@ using access::direction_of;
 
 // Counts an elapsed slice of an open transfer; each frame of the transfer sets the counter to 0.
 void count_slice(CO_SDO& channel) {
-  if (state_of(channel) == State::idle || channel.Idle == busy) {
+  if (state_of(channel) == State::idle) {
     return;
   }
   ++channel.Idle;

@@ -41,9 +41,6 @@ enum Flag : uint8_t {
 
 inline constexpr bool has_block = USE_SDO_BLOCK != 0;
 
-// Value of CO_SDO.Idle while type functions of the transfer may be running: it is closed only after they have returned.
-inline constexpr uint8_t busy = 0xFF;
-
 inline State state_of(const CO_SDO& channel) { return static_cast<State>(channel.State); }
 inline void set_state(CO_SDO& channel, State state) { channel.State = static_cast<uint8_t>(state); }
 inline bool has(const CO_SDO& channel, Flag flag) { return (channel.Flags & flag) != 0; }

@@ -436,9 +436,8 @@ CO_ERR COSrdoRequest(CO_NODE* node, uint8_t number) {
   if (number >= CO_SRDO_N) {
     return CO_ERR_BAD_ARG;
   }
-  const CO_ERR err = srdo::request(*node, node->Srdo[number]);
-  event::run_deferred(*node);
-  return err;
+  const event::Call call(*node);
+  return srdo::request(*node, node->Srdo[number]);
 }
 
 CO_ERR COSrdoSignature(CO_NODE* node, uint8_t number, uint16_t* signature) {
