@@ -21,13 +21,14 @@ enum Cause : uint8_t {
 // most one store from the budget, with its first write, for any number of records.
 class Command {
  public:
-  explicit Command(CO_NODE& node) : node_(node) { node.StoreCause = bus; }
-  ~Command() { node_.StoreCause = application; }
+  explicit Command(CO_NODE& node) : node_(node), outer_(node.StoreCause) { node.StoreCause = bus; }
+  ~Command() { node_.StoreCause = outer_; }
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
 
  private:
   CO_NODE& node_;
+  uint8_t outer_;
 };
 
 // Returns whether no store is available.

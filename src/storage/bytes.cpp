@@ -70,7 +70,7 @@ bool are_stored(const CO_NODE& node, const Record& record, const uint8_t* data) 
   });
 }
 
-CO_ERR save_bytes(CO_NODE& node, const Record& record, const uint8_t* data) {
+CO_ERR save_bytes(CO_NODE& node, const Record& record, const uint8_t* data, Cause) {
   if (!port::nvm_exists(node)) {
     return CO_ERR_IF_NVM_WRITE;
   }
@@ -87,22 +87,16 @@ CO_ERR save_bytes(CO_NODE& node, const Record& record, const uint8_t* data) {
   return done ? CO_ERR_NONE : CO_ERR_IF_NVM_WRITE;
 }
 
-Found find_bytes(const CO_NODE& node, const Record& record) {
-  return port::nvm_exists(node) ? look_at_bytes(node, record) : Found::blank;
-}
-
 Loaded load_bytes(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
-  const Found found = find_bytes(node, record);
+  const Found found = port::nvm_exists(node) ? look_at_bytes(node, record) : Found::blank;
   const bool is_data = found == Found::data;
   const bool failed = is_data && port::nvm_read(node, record.start, to, size) != size;
   return {failed ? Found::lost : found, false};
 }
 
-uint32_t space_of_bytes(const CO_NODE& node, uint32_t size) { return port::nvm_exists(node) ? size : 0; }
-
 }  // namespace
 
-const CO_STORE_T bytes = {space_of_bytes, find_bytes, load_bytes, save_bytes};
+const CO_STORE_T bytes = {load_bytes, save_bytes};
 
 }  // namespace co::store
 

@@ -4,10 +4,10 @@
 #include "dictionary/dict.hpp"
 #include "dictionary/types/integer.hpp"
 #include "dictionary/types/place.hpp"
+#include "hal/port.hpp"
 #include "storage/budget.hpp"
 #include "storage/groups.hpp"
 #include "storage/para.hpp"
-#include "storage/store.hpp"
 
 #if USE_PARA
 
@@ -75,7 +75,7 @@ uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
 // Returns the operations that the network can execute on the groups of an entry. A group is stored autonomously only in
 // an atomic memory: power may fail at any of these stores. [301:7.5.2.13 figure 60]
 uint32_t abilities(CO_NODE& node, const CO_OBJ& obj) {
-  const uint32_t possible = !is_restore(obj) && store::is_atomic(node) ? CO_PARA__AE : CO_PARA___E;
+  const uint32_t possible = !is_restore(obj) && port::nvm_has_shape(node) ? CO_PARA__AE : CO_PARA___E;
   return visit(node, obj, nullptr).flags & possible;
 }
 

@@ -73,26 +73,30 @@ CO_ERR use_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found fo
                                                                                              : CO_ERR_NONE;
 }
 
-// Returns whether a change of the group is stored autonomously. While the memory holds the request of a "load" to use
-// the defaults, changes are not stored, because they would replace the request.
-bool is_change_stored(CO_NODE& node, const CO_PARA& group) {
-  return is_saved_autonomously(group) && store::is_atomic(node) &&
-         store::find(node, locate(node, group).record) != Found::defaults;
+// Stores data of a group; null: the request to use the defaults.
+CO_ERR store_data(CO_NODE& node, const CO_PARA& group, const uint8_t* data, store::Cause cause) {
+  const Located located = locate(node, group);
+  return located.is_refused ? CO_ERR_PARA_OVERLAP : store::of(node).save(node, located.record, data, cause);
+}
+
+// Stores a group if it is autonomous, has changed, and the memory does not hold the request of a "load" to use the
+// defaults, which a store would replace.
+CO_ERR save_change(CO_NODE& node, const CO_PARA& group) {
+  return is_saved_autonomously(group) && port::nvm_has_shape(node)
+             ? store_data(node, group, memory_of(group), store::Cause::change)
+             : CO_ERR_NONE;
 }
 
 // Reads the record of a group. The record of a group that is never stored is not read, because CO_PARA.Offset may have
 // any value; with a classic driver it is read, as in CANopen-Stack.
 store::Loaded load_record(CO_NODE& node, const CO_PARA& group, const store::Record& record, uint32_t size) {
-  const bool is_loaded = has_record(group) || !store::is_atomic(node);
-  return is_loaded ? store::load(node, record, memory_of(group), size) : store::Loaded{Found::blank, false};
+  const bool is_loaded = has_record(group) || !port::nvm_has_shape(node);
+  return is_loaded ? store::of(node).load(node, record, memory_of(group), size) : store::Loaded{Found::blank, false};
 }
 
-// Stores a group. If the budget is used up (CO_ERR_OBJ_STATE), that is no error: the group is stored at the next period
-// (CO_PARA_PERIOD).
-CO_ERR save_now_or_later(CO_NODE& node, const CO_PARA& group) {
-  const CO_ERR err = save(node, group);
-  return err == CO_ERR_OBJ_STATE ? CO_ERR_NONE : err;
-}
+// Returns the error of an autonomous store. If the budget is used up (CO_ERR_OBJ_STATE), that is no error: the group is
+// stored at the next period (CO_PARA_PERIOD).
+CO_ERR without_delay(CO_ERR err) { return err == CO_ERR_OBJ_STATE ? CO_ERR_NONE : err; }
 
 // Sets the first size bytes of a group to the default values. A reset ends the request of a "load" for an autonomous
 // group by storing the defaults, so that later changes are stored. If the budget is used up, the next reset ends the
@@ -100,7 +104,7 @@ CO_ERR save_now_or_later(CO_NODE& node, const CO_PARA& group) {
 CO_ERR load_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found found) {
   const CO_ERR err = use_defaults(node, group, size, found);
   const bool ends_request = found == Found::defaults && size == group.Size && is_saved_autonomously(group);
-  return err == CO_ERR_NONE && ends_request ? save_now_or_later(node, group) : err;
+  return err == CO_ERR_NONE && ends_request ? without_delay(save(node, group)) : err;
 }
 
 // Loads the first size bytes of a group: from its record, or the default values.
@@ -122,17 +126,14 @@ CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   return loaded.found == Found::no_place ? CO_ERR_PARA_STORE : err;
 }
 
-// Stores a group if its changes are stored autonomously. key: entry that an error is reported for.
-void save_change(CO_NODE& node, const CO_PARA& group, uint32_t key) {
-  if (is_change_stored(node, group)) {
-    error::report(node, save_now_or_later(node, group), key);
+// Returns whether the variables of the group are newer than its record, because the budget is used up. A reset must not
+// load the group then. Without budget nothing is written.
+bool has_unsaved_change(CO_NODE& node, const CO_PARA& group) {
+  if (!budget::is_empty(node)) {
+    return false;
   }
-}
-
-// Returns whether the variables of the group may be newer than its record, because the budget is used up. A reset must
-// not load the group then.
-bool may_have_unsaved_change(CO_NODE& node, const CO_PARA& group) {
-  return budget::is_empty(node) && is_change_stored(node, group);
+  const budget::Command command(node);
+  return save_change(node, group) != CO_ERR_NONE;
 }
 
 bool has_autonomous_group(CO_NODE& node) {
@@ -191,14 +192,10 @@ const CO_PARA* Groups::next() {
 }
 
 CO_ERR save(CO_NODE& node, const CO_PARA& group) {
-  const Located located = locate(node, group);
-  return located.is_refused ? CO_ERR_PARA_OVERLAP : store::save(node, located.record, memory_of(group));
+  return store_data(node, group, memory_of(group), store::Cause::command);
 }
 
-CO_ERR restore(CO_NODE& node, const CO_PARA& group) {
-  const Located located = locate(node, group);
-  return located.is_refused ? CO_ERR_PARA_OVERLAP : store::save_defaults(node, located.record);
-}
+CO_ERR restore(CO_NODE& node, const CO_PARA& group) { return store_data(node, group, nullptr, store::Cause::command); }
 
 namespace {
 
@@ -211,7 +208,7 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
     const uint32_t size = group->*member;
     const bool is_loaded = group->Type == type && size <= group->Size && !(is_partial && size == 0);
-    const CO_ERR err = is_loaded && !may_have_unsaved_change(node, *group) ? load(node, *group, size) : CO_ERR_NONE;
+    const CO_ERR err = is_loaded && !has_unsaved_change(node, *group) ? load(node, *group, size) : CO_ERR_NONE;
     if (err == CO_ERR_NONE) {
       continue;
     }
@@ -234,7 +231,7 @@ void save_changes(CO_NODE& node) {
   const budget::Command command(node);
   Groups groups(node, store_index);
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
-    save_change(node, *group, groups.entry().Key);
+    error::report(node, without_delay(save_change(node, *group)), groups.entry().Key);
   }
 }
 

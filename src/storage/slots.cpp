@@ -215,12 +215,6 @@ struct Slots {
   unsigned first;
 };
 
-// Returns what both slots hold together.
-Found found_in(const Slots& slots) {
-  const bool blank = slots.newest().found == Found::blank && slots.other().found == Found::blank;
-  return blank || is_whole(slots.newest()) ? slots.newest().found : Found::lost;
-}
-
 // Returns whether the other slot is damaged and was written after the newest valid one, so that its data are lost. A
 // slot whose store was interrupted by a power failure does not count: its header is erased (Found::blank), or still
 // that of its previous record, whose generation is one lower than that of the newest valid slot. A header that cannot
@@ -338,16 +332,6 @@ bool fits(const Region& region) {
   return region.slot <= half && start <= shape.Capacity - 2 * region.slot && start % region.unit == 0;
 }
 
-uint32_t space(const CO_NODE& node, uint32_t size) {
-  const Record record = {0, size, 0, 0};
-  return 2 * Region(node, record).slot;
-}
-
-Found find(const CO_NODE& node, const Record& record) {
-  const Region region(node, record);
-  return fits(region) ? found_in(Slots(region)) : Found::no_place;
-}
-
 // Loads the newest valid slot, or the other one if the memory then returns other bytes.
 Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
   CO_ASSERT(size <= record.size);
@@ -369,15 +353,19 @@ Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
     is_older = true;
   }
   remember(node, record, slots.newest());
-  return {found_in(slots) == Found::blank ? Found::blank : Found::lost, false};
+  const bool is_blank = slots.newest().found == Found::blank && slots.other().found == Found::blank;
+  return {is_blank ? Found::blank : Found::lost, false};
 }
 
-CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
+CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data, store::Cause cause) {
   const Region region(node, record);
   if (!fits(region)) {
     return CO_ERR_PARA_STORE;
   }
   const Slots slots(region);
+  if (cause == store::Cause::change && slots.newest().found == Found::defaults) {
+    return CO_ERR_NONE;
+  }
   const Found wanted = data == nullptr ? Found::defaults : Found::data;
   Pass compare = {nullptr, 0, data, false};
   if (slots.newest().found == wanted && read_again(region, slots.newest(), compare) == wanted && !compare.differs) {
@@ -399,7 +387,12 @@ bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
   return n == num;
 }
 
-const CO_STORE_T store = {space, find, load, save};
+uint32_t space(const CO_NODE& node, uint32_t size) {
+  const Record record = {0, size, 0, 0};
+  return 2 * Region(node, record).slot;
+}
+
+const CO_STORE_T store = {load, save};
 
 }  // namespace co::slots
 

@@ -9,34 +9,27 @@
 namespace co::store {
 namespace {
 
-// Returns the functions for the node's memory; null if it has none that can store groups.
-const CO_STORE_T* store_of(const CO_NODE& node) { return port::nvm_has_shape(node) ? &slots::store : node.If.Raw; }
+Loaded load_nothing(CO_NODE&, const Record&, uint8_t*, uint32_t) { return {Found::blank, false}; }
+
+CO_ERR refuse(CO_NODE&, const Record&, const uint8_t*, Cause) { return CO_ERR_IF_NVM_WRITE; }
+
+constexpr CO_STORE_T none = {load_nothing, refuse};  // the node has no memory that can store groups
 
 }  // namespace
 
-bool is_atomic(const CO_NODE& node) { return port::nvm_has_shape(node); }
+const CO_STORE_T& of(const CO_NODE& node) {
+  if (port::nvm_has_shape(node)) {
+    return slots::store;
+  }
+  return node.If.Raw != nullptr ? *node.If.Raw : none;
+}
 
 uint32_t space(const CO_NODE& node, uint32_t size) {
-  const CO_STORE_T* const store = store_of(node);
-  return store == nullptr ? 0 : store->space(node, size);
+  if (port::nvm_has_shape(node)) {
+    return slots::space(node, size);
+  }
+  return node.If.Raw != nullptr && port::nvm_exists(node) ? size : 0;
 }
-
-Found find(const CO_NODE& node, const Record& record) {
-  const CO_STORE_T* const store = store_of(node);
-  return store == nullptr ? Found::blank : store->find(node, record);
-}
-
-Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
-  const CO_STORE_T* const store = store_of(node);
-  return store == nullptr ? Loaded{Found::blank, false} : store->load(node, record, to, size);
-}
-
-CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
-  const CO_STORE_T* const store = store_of(node);
-  return store == nullptr ? CO_ERR_IF_NVM_WRITE : store->save(node, record, data);
-}
-
-CO_ERR save_defaults(CO_NODE& node, const Record& record) { return save(node, record, nullptr); }
 
 }  // namespace co::store
 

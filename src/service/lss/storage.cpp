@@ -31,7 +31,7 @@ CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nod
   Stored stored = {};
   // Resets that other threads have requested during the memory access are deferred: event::run_deferred() runs them.
   const store::Found found =
-      store::load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored), sizeof stored).found;
+      store::of(*node).load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored), sizeof stored).found;
   event::run_deferred(*node);
   if (found == store::Found::data) {
     *baud = stored.baud;
@@ -49,7 +49,8 @@ CO_ERR COLssNvmStore(CO_NODE* node, uint32_t offset, uint32_t baud, uint8_t node
     return CO_ERR_LSS_NO_STORE;
   }
   const Stored stored = {baud, nodeId};
-  const CO_ERR err = store::save(*node, record_at(offset), reinterpret_cast<const uint8_t*>(&stored));
+  const CO_ERR err =
+      store::of(*node).save(*node, record_at(offset), reinterpret_cast<const uint8_t*>(&stored), store::Cause::command);
   event::run_deferred(*node);
   return err;
 }
