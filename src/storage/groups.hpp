@@ -12,6 +12,7 @@ constexpr uint16_t restore_index = 0x1011;
 constexpr unsigned version_bit = 8;  // lowest bit of the version in CO_PARA.Value
 constexpr uint16_t verify_index = 0x1020;
 
+inline uint8_t* memory_of(const CO_PARA& group) { return group.Start; }
 constexpr bool is_saved_on_command(const CO_PARA& group) { return (group.Value & CO_PARA___E) != 0; }
 constexpr bool is_saved_autonomously(const CO_PARA& group) { return (group.Value & CO_PARA__A_) != 0; }
 
@@ -22,6 +23,9 @@ class Groups {
 
   // Returns the next group; null: there is none.
   [[nodiscard]] const CO_PARA* next();
+
+  // Returns whether sub-index 1 stands for other groups.
+  [[nodiscard]] bool are_several() const { return last_ > 1; }
 
   // Returns the entry whose group next() has returned.
   [[nodiscard]] const CO_OBJ& entry() const {

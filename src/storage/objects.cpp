@@ -20,46 +20,26 @@ constexpr uint32_t load_signature = 0x64616F6C;
 // Returns whether the entry is sub-index 0: the number of groups, an UNSIGNED8.
 bool is_number_of_groups(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) == 0; }
 
-// Returns whether the entry stands for all groups: sub-index 1, if there are others.
-bool is_all(CO_NODE& node, const CO_OBJ& obj) {
-  return CO_GET_SUB(obj.Key) == 1 && dict::read_number(node, CO_DEV(CO_GET_IDX(obj.Key), 0), sizeof(uint8_t), 0) > 1;
-}
-
 // Returns whether the entry is one of 1011h; otherwise it is one of 1010h. A type of the application may call these
 // functions.
 bool is_restore(const CO_OBJ& obj) { return CO_GET_IDX(obj.Key) == restore_index; }
 
-// Executes "save" or "load" for a group. Null: only asks for the abilities of the groups.
-using Command = CO_ERR (*)(CO_NODE& node, const CO_PARA& group);
-
-// Result of visiting all groups that an entry stands for: the first error of the command, and the flags of all groups.
-struct Visited {
-  CO_ERR first;
-  uint32_t flags;
-};
-
-void visit_one(CO_NODE& node, const CO_PARA& group, Command command, Visited& visited) {
-  visited.flags |= group.Value;
-  if (command != nullptr && is_saved_on_command(group)) {
-    const CO_ERR err = command(node, group);
-    visited.first = visited.first == CO_ERR_NONE ? err : visited.first;
-  }
-}
-
-Visited visit(CO_NODE& node, const CO_OBJ& obj, Command command) {
-  Visited visited = {CO_ERR_NONE, 0};
-  const CO_PARA* group = data_of<const CO_PARA>(obj);
-  if (!is_all(node, obj)) {
-    if (group != nullptr) {
-      visit_one(node, *group, command, visited);
-    }
-    return visited;
-  }
+// Returns the flags of all groups that an entry stands for. error: null, or CO_ERR_NONE: executes "save" or "load" for
+// the groups, and error becomes the first error
+uint32_t visit(CO_NODE& node, const CO_OBJ& obj, CO_ERR* error) {
   Groups groups(node, static_cast<uint16_t>(CO_GET_IDX(obj.Key)));
-  while ((group = groups.next()) != nullptr) {
-    visit_one(node, *group, command, visited);
+  const bool is_all = CO_GET_SUB(obj.Key) == 1 && groups.are_several();
+  const CO_PARA* group = is_all ? groups.next() : data_of<const CO_PARA>(obj);
+  uint32_t flags = 0;
+  while (group != nullptr) {
+    flags |= group->Value;
+    if (error != nullptr && is_saved_on_command(*group)) {
+      const CO_ERR err = save(node, *group, is_restore(obj) ? nullptr : memory_of(*group));
+      *error = *error == CO_ERR_NONE ? err : *error;
+    }
+    group = is_all ? groups.next() : nullptr;
   }
-  return visited;
+  return flags;
 }
 
 template <const rules::Rule& number, const rules::Rule& entry>
@@ -72,22 +52,17 @@ uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
   return type->Size(obj, node, width);
 }
 
-// Returns the operations that the network can execute on the groups of an entry. A group is stored autonomously only in
+// Reads the operations that the network can execute on the groups of an entry. A group is stored autonomously only in
 // an atomic memory: power may fail at any of these stores. [301:7.5.2.13 figure 60]
-uint32_t abilities(CO_NODE& node, const CO_OBJ& obj) {
-  const uint32_t possible = !is_restore(obj) && port::nvm_has_shape(node) ? CO_PARA__AE : CO_PARA___E;
-  return visit(node, obj, nullptr).flags & possible;
-}
-
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (is_number_of_groups(*obj)) {
     return integer::Number<1>::read(obj, node, buffer, size);
   }
-  const uint32_t value = abilities(*node, *obj);
-  if (size != sizeof value || uintptr_t{obj->Data} == 0) {
+  if (size != sizeof(uint32_t) || uintptr_t{obj->Data} == 0) {
     return CO_ERR_OBJ_SIZE;
   }
-  integer::put_u32(buffer, value);
+  const uint32_t possible = !is_restore(*obj) && port::nvm_has_shape(*node) ? CO_PARA__AE : CO_PARA___E;
+  integer::put_u32(buffer, visit(*node, *obj, nullptr) & possible);
   return CO_ERR_NONE;
 }
 
@@ -97,12 +72,13 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return is_number_of_groups(*obj) ? CO_ERR_OBJ_ACC : CO_ERR_OBJ_SIZE;
   }
   const uint32_t signature = is_restore(*obj) ? load_signature : save_signature;
-  if (uintptr_t{obj->Data} == 0 || integer::get_u32(buffer) != signature ||
-      (abilities(*node, *obj) & CO_PARA___E) == 0) {
+  if (uintptr_t{obj->Data} == 0 || integer::get_u32(buffer) != signature) {
     return CO_ERR_TYPE_WR;
   }
   const budget::Command counted(*node);
-  return visit(*node, *obj, is_restore(*obj) ? restore : save).first;
+  CO_ERR err = CO_ERR_NONE;
+  const uint32_t flags = visit(*node, *obj, &err);
+  return (flags & CO_PARA___E) != 0 ? err : CO_ERR_TYPE_WR;
 }
 
 // Records that date or time in 1020h is not 0: the configuration is verified until an object of a group is written.
@@ -138,15 +114,14 @@ CO_ERR write_verify(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 }
 
 // Implements an API function. A reset that is requested during the memory access is executed afterwards.
-template <CO_ERR (*command)(CO_NODE& node, const CO_PARA& group)>
-CO_ERR run(CO_NODE& node, const CO_PARA& group) {
+CO_ERR run(CO_NODE& node, const CO_PARA& group, const uint8_t* data) {
   if (!is_saved_on_command(group)) {
     return CO_ERR_NONE;
   }
   CO_ERR err = CO_ERR_NONE;
   {
     const event::Serving serving(node);
-    err = command(node, group);
+    err = save(node, group, data);
   }
   event::run_deferred(node);
   return err;
@@ -174,13 +149,13 @@ const CO_OBJ_TYPE COTVerifyConfig = {para::size_verify, para::init_verify, para:
 CO_ERR COParaStore(const CO_PARA* pg, CO_NODE* node) {
   ASSERT_PTR_ERR(pg, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  return para::run<para::save>(*node, *pg);
+  return para::run(*node, *pg, para::memory_of(*pg));
 }
 
 CO_ERR COParaRestore(const CO_PARA* pg, CO_NODE* node) {
   ASSERT_PTR_ERR(pg, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  return para::run<para::restore>(*node, *pg);
+  return para::run(*node, *pg, nullptr);
 }
 
 CO_ERR CONodeParaLoad(CO_NODE* node, CO_NMT_RESET type) {

@@ -13,14 +13,13 @@
 #include "hal/port.hpp"
 #include "storage/budget.hpp"
 #include "storage/groups.hpp"
+#include "storage/slots.hpp"
 #include "storage/store.hpp"
 
 namespace co::para {
 namespace {
 
 using store::Found;
-
-uint8_t* memory_of(const CO_PARA& group) { return group.Start; }
 
 // Returns whether the group is stored in the memory: on command ("save"), or autonomously.
 bool has_record(const CO_PARA& group) { return (group.Value & CO_PARA__AE) != 0; }
@@ -35,7 +34,7 @@ bool overlap(const CO_NODE& node, const CO_PARA& a, const CO_PARA& b) {
 // The record of a group; its sub-index of 1010h is part of the record's identity.
 struct Located {
   store::Record record;
-  bool is_refused;  // the group overlaps one with a lower sub-index
+  CO_ERR err;  // CO_ERR_PARA_OVERLAP: the group overlaps one with a lower sub-index
 };
 
 // CO_PARA.Value may hold the version of the layout above its flags.
@@ -43,87 +42,76 @@ uint32_t version_of(const CO_PARA& group) { return group.Version != 0 ? group.Ve
 
 // Returns whether two CO_PARA describe one group: the entries of 1010h and 1011h may have a CO_PARA each.
 bool is_same_group(const CO_PARA& a, const CO_PARA& b) {
-  return a.Offset == b.Offset && a.Size == b.Size && memory_of(a) == memory_of(b) && a.Type == b.Type &&
-         version_of(a) == version_of(b);
+  return slots::is_same(reinterpret_cast<const uint8_t*>(&a), reinterpret_cast<const uint8_t*>(&b),
+                        offsetof(CO_PARA, Default)) &&
+         a.Type == b.Type && version_of(a) == version_of(b);
 }
 
 // Returns the record of a group, and whether the group must not be loaded or stored.
 Located locate(CO_NODE& node, const CO_PARA& group) {
-  Located located = {{group.Offset, group.Size, version_of(group), 0}, false};
+  Located located = {{group.Offset, group.Size, version_of(group), 0}, CO_ERR_NONE};
   Groups groups(node, store_index);
   for (const CO_PARA* other = groups.next(); other != nullptr; other = groups.next()) {
     if (is_same_group(*other, group)) {
       located.record.group = CO_GET_SUB(groups.entry().Key);
       break;
     }
-    located.is_refused = located.is_refused || overlap(node, *other, group);
+    if (overlap(node, *other, group)) {
+      located.err = CO_ERR_PARA_OVERLAP;
+    }
   }
   return located;
-}
-
-// Sets the first size bytes of a group to the default values of the table, if it has any. Calls COParaDefault() only if
-// the memory holds the request to use the defaults, after a "load".
-CO_ERR use_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found found) {
-  CO_ASSERT(size <= group.Size);
-  if (static_cast<const uint8_t*>(group.Default) != nullptr) {
-    __builtin_memcpy(memory_of(group), static_cast<const uint8_t*>(group.Default), size);
-  }
-  const bool is_requested = found == Found::defaults && size == group.Size;  // the callback sets all bytes of the group
-  return is_requested && callback::set_para_defaults(node, const_cast<CO_PARA&>(group)) != 0 ? CO_ERR_PARA_RESTORE
-                                                                                             : CO_ERR_NONE;
-}
-
-// Stores data of a group; null: the request to use the defaults.
-CO_ERR store_data(CO_NODE& node, const CO_PARA& group, const uint8_t* data, store::Cause cause) {
-  const Located located = locate(node, group);
-  return located.is_refused ? CO_ERR_PARA_OVERLAP : store::of(node).save(node, located.record, data, cause);
 }
 
 // Stores a group if it is autonomous, has changed, and the memory does not hold the request of a "load" to use the
 // defaults, which a store would replace.
 CO_ERR save_change(CO_NODE& node, const CO_PARA& group) {
   return is_saved_autonomously(group) && port::nvm_has_shape(node)
-             ? store_data(node, group, memory_of(group), store::Cause::change)
+             ? save(node, group, memory_of(group), store::Cause::change)
              : CO_ERR_NONE;
-}
-
-// Reads the record of a group. The record of a group that is never stored is not read, because CO_PARA.Offset may have
-// any value; with a classic driver it is read, as in CANopen-Stack.
-store::Loaded load_record(CO_NODE& node, const CO_PARA& group, const store::Record& record, uint32_t size) {
-  const bool is_loaded = has_record(group) || !port::nvm_has_shape(node);
-  return is_loaded ? store::of(node).load(node, record, memory_of(group), size) : store::Loaded{Found::blank, false};
 }
 
 // Returns the error of an autonomous store. If the budget is used up (CO_ERR_OBJ_STATE), that is no error: the group is
 // stored at the next period (CO_PARA_PERIOD).
-CO_ERR without_delay(CO_ERR err) { return err == CO_ERR_OBJ_STATE ? CO_ERR_NONE : err; }
+CO_ERR without_delay(CO_ERR err) { return CO_PARA_BUDGET > 0 && err == CO_ERR_OBJ_STATE ? CO_ERR_NONE : err; }
 
-// Sets the first size bytes of a group to the default values. A reset ends the request of a "load" for an autonomous
-// group by storing the defaults, so that later changes are stored. If the budget is used up, the next reset ends the
-// request.
-CO_ERR load_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found found) {
-  const CO_ERR err = use_defaults(node, group, size, found);
-  const bool ends_request = found == Found::defaults && size == group.Size && is_saved_autonomously(group);
-  return err == CO_ERR_NONE && ends_request ? without_delay(save(node, group)) : err;
+// Sets the first size bytes of a group to the default values of the table, if it has any. If the memory holds the
+// request to use the defaults, after a "load", also calls COParaDefault(), which sets all bytes of the group. For an
+// autonomous group it then ends the request by storing the defaults, so that later changes are stored; if the budget is
+// used up, the next reset ends the request.
+[[gnu::noinline]] CO_ERR use_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found found) {
+  CO_ASSERT(size <= group.Size);
+  if (static_cast<const uint8_t*>(group.Default) != nullptr) {
+    __builtin_memcpy(memory_of(group), static_cast<const uint8_t*>(group.Default), size);
+  }
+  if (found != Found::defaults || size != group.Size) {
+    return CO_ERR_NONE;
+  }
+  if (callback::set_para_defaults(node, const_cast<CO_PARA&>(group)) != 0) {
+    return CO_ERR_PARA_RESTORE;
+  }
+  return is_saved_autonomously(group) ? without_delay(save(node, group, memory_of(group))) : CO_ERR_NONE;
 }
 
-// Loads the first size bytes of a group: from its record, or the default values.
-CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
+// Loads the first size bytes of a group: from its record, or the default values. The record of a group that is never
+// stored is not read, because CO_PARA.Offset may have any value; with a classic driver it is read, as in CANopen-Stack.
+[[gnu::noinline]] CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   const Located located = locate(node, group);
-  if (located.is_refused) {
-    (void)use_defaults(node, group, size, Found::no_place);
-    return CO_ERR_PARA_OVERLAP;
-  }
-  const store::Loaded loaded = load_record(node, group, located.record, size);
-  const CO_ERR err = loaded.found == Found::data ? CO_ERR_NONE : load_defaults(node, group, size, loaded.found);
+  const bool is_read = located.err == CO_ERR_NONE && (has_record(group) || !port::nvm_has_shape(node));
+  const store::Loaded loaded =
+      is_read ? store::of(node).load(node, located.record, memory_of(group), size) : store::Loaded{Found::blank, false};
+  CO_ERR err = loaded.found == Found::data ? CO_ERR_NONE : use_defaults(node, group, size, loaded.found);
   if (loaded.is_older) {
     callback::recover_para(node, group);
   }
   if (loaded.found == Found::lost) {
     callback::lose_para(node, group);
-    return CO_ERR_PARA_LOAD;
+    err = CO_ERR_PARA_LOAD;
   }
-  return loaded.found == Found::no_place ? CO_ERR_PARA_STORE : err;
+  if (loaded.found == Found::no_place) {
+    err = CO_ERR_PARA_STORE;
+  }
+  return located.err != CO_ERR_NONE ? located.err : err;
 }
 
 // Returns whether the variables of the group are newer than its record, because the budget is used up. A reset must not
@@ -191,11 +179,10 @@ const CO_PARA* Groups::next() {
   return nullptr;
 }
 
-CO_ERR save(CO_NODE& node, const CO_PARA& group) {
-  return store_data(node, group, memory_of(group), store::Cause::command);
+CO_ERR save(CO_NODE& node, const CO_PARA& group, const uint8_t* data, store::Cause cause) {
+  const Located located = locate(node, group);
+  return located.err != CO_ERR_NONE ? located.err : store::of(node).save(node, located.record, data, cause);
 }
-
-CO_ERR restore(CO_NODE& node, const CO_PARA& group) { return store_data(node, group, nullptr, store::Cause::command); }
 
 namespace {
 

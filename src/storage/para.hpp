@@ -2,7 +2,7 @@
 // Parameter groups: 1010h and 1011h, loading and storing. [301:7.5.2.13, 7.5.2.14]
 #pragma once
 
-#include "co_core.h"
+#include "storage/store.hpp"
 
 namespace co::para {
 
@@ -22,7 +22,8 @@ void on_mode(CO_NODE& node);
 // Marks the configuration as not verified (1020h) when the network has written an object of a group.
 void on_write(CO_NODE* node, const CO_OBJ* obj);
 
-[[nodiscard]] CO_ERR save(CO_NODE& node, const CO_PARA& group);
-[[nodiscard]] CO_ERR restore(CO_NODE& node, const CO_PARA& group);
+// Stores data of a group; null: the request to use the defaults.
+[[nodiscard]] CO_ERR save(CO_NODE& node, const CO_PARA& group, const uint8_t* data,
+                          store::Cause cause = store::Cause::command);
 
 }  // namespace co::para
