@@ -34,7 +34,7 @@ struct Slot {
   Found found;
 };
 
-uint32_t round_up(uint32_t value, uint32_t unit) {
+[[gnu::noinline]] uint32_t round_up(uint32_t value, uint32_t unit) {
   const uint32_t over = value % unit;
   return over == 0 ? value : value + (unit - over);
 }
@@ -47,6 +47,7 @@ struct Region {
         shape(port::nvm_shape(owner)),
         program(shape.ProgramSize == 0 ? 1 : shape.ProgramSize),
         unit(shape.EraseSize == 0 ? program : shape.EraseSize),
+        buffer(CO_STORE_BUFFER - CO_STORE_BUFFER % program),
         header(round_up(sizeof(Header), program)),
         slot(round_up(header + round_up(what.size, program), unit)) {}
 
@@ -55,6 +56,7 @@ struct Region {
   CO_NVM_SHAPE shape;
   uint32_t program;  // program size
   uint32_t unit;     // address and size of a slot are multiples of this
+  uint32_t buffer;   // bytes of the work memory that are used: a multiple of the program size
   uint32_t header;   // bytes that the header occupies
   uint32_t slot;     // bytes that a slot occupies
 };
@@ -96,58 +98,50 @@ class Outside {
 };
 #endif
 
-// Work memory whose size is a multiple of the program size.
-class Buffer {
- public:
-  explicit Buffer(const Region& region) : size_(CO_STORE_BUFFER - CO_STORE_BUFFER % region.program) {
-    CO_ASSERT(size_ != 0 && size_ <= sizeof bytes_);
-  }
-  // Returns the size of the next piece, of the bytes that are left.
-  [[nodiscard]] uint32_t piece_of(uint32_t bytes) const { return bytes < size_ ? bytes : size_; }
-  [[nodiscard]] uint8_t* bytes() { return bytes_; }
-
- private:
-  uint32_t size_;
-  uint8_t bytes_[CO_STORE_BUFFER] = {};
-};
-
 bool read(const Region& region, uint32_t start, void* to, uint32_t size) {
   const Outside outside(region.node);
   return port::nvm_read(region.node, start, static_cast<uint8_t*>(to), size) == size;
 }
 
+// Returns the size of the next piece, of the bytes that are left.
+uint32_t piece_of(const Region& region, uint32_t left) {
+  CO_ASSERT(region.buffer != 0);
+  return left < region.buffer ? left : region.buffer;
+}
+
 // Use of the data of a slot while their CRC is calculated.
 struct Pass {
-  uint8_t* to;             // memory of the application for the first bytes; null: none
-  uint32_t left;           // bytes to be copied there
-  const uint8_t* compare;  // bytes to compare with; null: none
-  bool differs;
+  uint8_t* data;  // memory of the application
+  uint32_t left;  // number of its bytes that follow
+  bool compares;  // the bytes are compared with the slot; otherwise copied from it
+  bool differs;   // result of the comparison
 };
 
 void use(Pass& pass, const uint8_t* bytes, uint32_t size) {
-  const uint32_t copied = size < pass.left ? size : pass.left;
-  if (copied != 0) {
-    __builtin_memcpy(pass.to, bytes, copied);
-    pass.to += copied;
-    pass.left -= copied;
+  const uint32_t used = size < pass.left ? size : pass.left;
+  if (used == 0) {
+    return;
   }
-  if (pass.compare != nullptr) {
-    pass.differs = pass.differs || !is_same(bytes, pass.compare, size);
-    pass.compare += size;
+  if (!pass.compares) {
+    __builtin_memcpy(pass.data, bytes, used);
+  } else if (!is_same(bytes, pass.data, used)) {
+    pass.differs = true;
   }
+  pass.data += used;
+  pass.left -= used;
 }
 
 // Adds size bytes of the memory to the CRC, in pieces. Returns false if they cannot be read. The application's memory
 // is written with the node lock held.
 bool add_to_crc(const Region& region, uint32_t start, uint32_t size, wire::Crc32& crc, Pass& pass) {
-  Buffer buffer(region);
+  uint8_t buffer[CO_STORE_BUFFER];
   while (size != 0) {
-    const uint32_t piece = buffer.piece_of(size);
-    if (!read(region, start, buffer.bytes(), piece)) {
+    const uint32_t piece = piece_of(region, size);
+    if (!read(region, start, buffer, piece)) {
       return false;
     }
-    crc.add(buffer.bytes(), piece);
-    use(pass, buffer.bytes(), piece);
+    crc.add(buffer, piece);
+    use(pass, buffer, piece);
     start += piece;
     size -= piece;
   }
@@ -191,14 +185,15 @@ bool is_newer(const Slot& slot, const Slot& other) {
   return is_whole(slot) && (!is_whole(other) || slot.header.generation - other.header.generation <= INT32_MAX);
 }
 
-Found read_again(const Region& region, const Slot& slot, Pass& pass) {
-  Header header = {};
-  return read_slot(region, slot.start, header, pass);
+// Reads a slot again. Returns whether it still holds the same.
+[[gnu::noinline]] bool read_again(const Region& region, const Slot& slot, Pass& pass) {
+  Header header;
+  return read_slot(region, slot.start, header, pass) == slot.found;
 }
 
 // Both slots of a record.
 struct Slots {
-  explicit Slots(const Region& region) : slot{} {
+  explicit Slots(const Region& region) {
     uint32_t start = region.record.start;
     for (Slot& each : slot) {
       Pass none = {};
@@ -206,13 +201,16 @@ struct Slots {
       each.found = read_slot(region, start, each.header, none);
       start += region.slot;
     }
-    first = is_newer(slot[1], slot[0]) ? 1 : 0;
+    const bool is_swapped = is_newer(slot[1], slot[0]);
+    newest = is_swapped ? &slot[1] : &slot[0];
+    other = is_swapped ? &slot[0] : &slot[1];
   }
-  [[nodiscard]] const Slot& newest() const { return slot[first]; }  // the newest valid one
-  [[nodiscard]] const Slot& other() const { return slot[first ^ 1U]; }
+  Slots(const Slots&) = delete;
+  Slots& operator=(const Slots&) = delete;
 
   Slot slot[2];
-  unsigned first;
+  const Slot* newest;  // the newest valid one
+  const Slot* other;
 };
 
 // Returns whether the other slot is damaged and was written after the newest valid one, so that its data are lost. A
@@ -220,9 +218,9 @@ struct Slots {
 // that of its previous record, whose generation is one lower than that of the newest valid slot. A header that cannot
 // be read does count.
 bool is_newest_damaged(const Slots& slots) {
-  const Header& header = slots.other().header;
+  const Header& header = slots.other->header;
   const bool is_unread = header.magic == 0;
-  return slots.other().found == Found::lost && (is_unread || slots.newest().header.generation - header.generation != 1);
+  return slots.other->found == Found::lost && (is_unread || slots.newest->header.generation - header.generation != 1);
 }
 
 // The slot that held the newest record of a group when it was loaded or saved last (CO_NODE.ParaNewest): it is not
@@ -261,14 +259,13 @@ bool program(const Region& region, uint32_t start, uint8_t* bytes, uint32_t size
 // Writes bytes and fills the last program unit up. The application may change the bytes during the call, so the CRC is
 // calculated from the bytes that are written.
 bool write(const Region& region, uint32_t start, const uint8_t* bytes, uint32_t size, wire::Crc32& crc) {
-  Buffer buffer(region);
+  uint8_t buffer[CO_STORE_BUFFER];
   while (size != 0) {
-    const uint32_t piece = buffer.piece_of(size);
-    const uint32_t whole = round_up(piece, region.program);
-    __builtin_memcpy(buffer.bytes(), bytes, piece);
-    __builtin_memset(buffer.bytes() + piece, erased, whole - piece);
-    crc.add(buffer.bytes(), piece);
-    if (!program(region, start, buffer.bytes(), whole)) {
+    const uint32_t piece = piece_of(region, size);
+    __builtin_memset(buffer, erased, sizeof buffer);
+    __builtin_memcpy(buffer, bytes, piece);
+    crc.add(buffer, piece);
+    if (!program(region, start, buffer, round_up(piece, region.program))) {
       return false;
     }
     start += piece;
@@ -300,16 +297,16 @@ bool write_slot(const Region& region, uint32_t start, Header& header, const uint
 // than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both. Reads both slots again
 // afterwards: if the remaining slot could not be read before, its record may be the newer one.
 CO_ERR write_record(CO_NODE& node, const Region& region, const Slots& slots, const uint8_t* data) {
-  const bool has_record = is_whole(slots.newest());
-  const uint32_t start = (has_record ? slots.other() : slots.newest()).start;
-  const uint32_t generation = (has_record ? slots.newest() : slots.other()).header.generation + 1;
+  const bool has_record = is_whole(*slots.newest);
+  const uint32_t start = (has_record ? slots.other : slots.newest)->start;
+  const uint32_t generation = (has_record ? slots.newest : slots.other)->header.generation + 1;
   const Record& record = region.record;
   Header header = {magic, record.version, data == nullptr ? defaults : record.size, generation, 0};
   if (!write_slot(region, start, header, data)) {
     return CO_ERR_IF_NVM_WRITE;
   }
   const Slots after(region);
-  const Slot& newest = after.newest();
+  const Slot& newest = *after.newest;
   const bool is_loaded_next = newest.start == start && is_whole(newest) && newest.header.crc == header.crc &&
                               newest.header.generation == generation;
   if (!is_loaded_next) {
@@ -341,19 +338,16 @@ Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
   }
   const Slots slots(region);
   bool is_older = is_newest_damaged(slots);
-  for (unsigned n = 0; n < 2; ++n) {
-    const Slot& slot = slots.slot[slots.first ^ n];
-    Pass copy = {};
-    copy.to = to;
-    copy.left = size;
-    if (is_whole(slot) && read_again(region, slot, copy) == slot.found) {
-      remember(node, record, slot);
-      return {slot.found, is_older};
+  for (const Slot* slot = slots.newest; slot != nullptr; slot = slot == slots.newest ? slots.other : nullptr) {
+    Pass copy = {to, size, false, false};
+    if (is_whole(*slot) && read_again(region, *slot, copy)) {
+      remember(node, record, *slot);
+      return {slot->found, is_older};
     }
     is_older = true;
   }
-  remember(node, record, slots.newest());
-  const bool is_blank = slots.newest().found == Found::blank && slots.other().found == Found::blank;
+  remember(node, record, *slots.newest);
+  const bool is_blank = slots.newest->found == Found::blank && slots.other->found == Found::blank;
   return {is_blank ? Found::blank : Found::lost, false};
 }
 
@@ -363,12 +357,12 @@ CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data, store::Cau
     return CO_ERR_PARA_STORE;
   }
   const Slots slots(region);
-  if (cause == store::Cause::change && slots.newest().found == Found::defaults) {
+  if (cause == store::Cause::change && slots.newest->found == Found::defaults) {
     return CO_ERR_NONE;
   }
   const Found wanted = data == nullptr ? Found::defaults : Found::data;
-  Pass compare = {nullptr, 0, data, false};
-  if (slots.newest().found == wanted && read_again(region, slots.newest(), compare) == wanted && !compare.differs) {
+  Pass compare = {const_cast<uint8_t*>(data), data == nullptr ? 0 : record.size, true, false};
+  if (slots.newest->found == wanted && read_again(region, *slots.newest, compare) && !compare.differs) {
     return CO_ERR_NONE;
   }
   if (is_hidden(node, record, slots)) {
