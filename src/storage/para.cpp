@@ -26,7 +26,7 @@ bool has_record(const CO_PARA& group) { return (group.Value & CO_PARA__AE) != 0;
 
 // Returns whether the records of two groups use the same addresses. The differences are unsigned: the one of the lower
 // address is large.
-bool overlap(const CO_NODE& node, const CO_PARA& a, const CO_PARA& b) {
+bool overlap(CO_NODE& node, const CO_PARA& a, const CO_PARA& b) {
   return has_record(a) && has_record(b) &&
          (a.Offset - b.Offset < store::space(node, b.Size) || b.Offset - a.Offset < store::space(node, a.Size));
 }

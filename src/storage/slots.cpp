@@ -41,7 +41,7 @@ struct Slot {
 
 // The two slots of a record, and the geometry of the memory that they are in.
 struct Region {
-  Region(const CO_NODE& owner, const Record& what)
+  Region(CO_NODE& owner, const Record& what)
       : node(owner),
         record(what),
         shape(port::nvm_shape(owner)),
@@ -51,7 +51,7 @@ struct Region {
         header(round_up(sizeof(Header), program)),
         slot(round_up(header + round_up(what.size, program), unit)) {}
 
-  const CO_NODE& node;
+  CO_NODE& node;
   const Record& record;
   CO_NVM_SHAPE shape;
   uint32_t program;  // program size
@@ -150,9 +150,9 @@ bool add_to_crc(const Region& region, uint32_t start, uint32_t size, wire::Crc32
 
 // Returns whether the header is that of an unused memory: FFh or 00h throughout.
 bool is_blank(const Header& header) {
-  const bool uniform = header.version == header.magic && header.size == header.magic &&
-                       header.generation == header.magic && header.crc == header.magic;
-  return uniform && (header.magic == UINT32_MAX || header.magic == 0);
+  const auto* const bytes = reinterpret_cast<const uint8_t*>(&header);
+  const bool uniform = is_same(bytes, bytes + 1, sizeof header - 1);
+  return uniform && (*bytes == erased || *bytes == 0);
 }
 
 // Reads header and data of a slot; the data are copied or compared as pass requires. Returns what the slot holds;
@@ -230,23 +230,25 @@ constexpr unsigned slot_bits = 2;
 
 // A place in CO_NODE.ParaNewest.
 struct Remembered {
-  Remembered(CO_NODE& node, const Record& record)
-      : byte(node.ParaNewest[record.group / groups_in_byte]), shift(record.group % groups_in_byte * slot_bits) {
-    CO_ASSERT(record.group / groups_in_byte < sizeof node.ParaNewest);
+  explicit Remembered(const Region& region)
+      : byte(region.node.ParaNewest[region.record.group / groups_in_byte]),
+        shift(region.record.group % groups_in_byte * slot_bits) {
+    CO_ASSERT(region.record.group / groups_in_byte < sizeof region.node.ParaNewest);
   }
   uint8_t& byte;
   unsigned shift;
 };
 
-void remember(CO_NODE& node, const Record& record, const Slot& slot) {
-  const Remembered at(node, record);
-  const unsigned number = slot.start == record.start ? 1 : 2;
-  at.byte = static_cast<uint8_t>((at.byte & ~(3U << at.shift)) | (is_whole(slot) ? number << at.shift : 0));
+void remember(const Region& region, const Slot& slot) {
+  const Remembered at(region);
+  const unsigned number = slot.start == region.record.start ? 1 : 2;
+  const unsigned others = at.byte & ~(3U << at.shift);
+  at.byte = static_cast<uint8_t>(others | (is_whole(slot) ? number : 0) << at.shift);
 }
 
 // Returns whether the slot that was remembered cannot be read any more.
-bool is_hidden(CO_NODE& node, const Record& record, const Slots& slots) {
-  const Remembered at(node, record);
+bool is_hidden(const Region& region, const Slots& slots) {
+  const Remembered at(region);
   const unsigned number = unsigned{at.byte} >> at.shift & 3U;
   return number != 0 && !is_whole(slots.slot[number - 1]);
 }
@@ -286,7 +288,7 @@ bool write_slot(const Region& region, uint32_t start, Header& header, const uint
   wire::Crc32 crc = crc_of(header, region.record);
   wire::Crc32 unused;
   if (!erase(region, start) ||
-      !write(region, start + region.header, data, data == nullptr ? 0 : region.record.size, crc)) {
+      !write(region, start + region.header, data, header.size == defaults ? 0 : header.size, crc)) {
     return false;
   }
   header.crc = crc.value();
@@ -296,7 +298,7 @@ bool write_slot(const Region& region, uint32_t start, Header& header, const uint
 // Writes the slot that does not hold the newest valid record. data: null for the defaults. The generation is one higher
 // than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both. Reads both slots again
 // afterwards: if the remaining slot could not be read before, its record may be the newer one.
-CO_ERR write_record(CO_NODE& node, const Region& region, const Slots& slots, const uint8_t* data) {
+CO_ERR write_record(const Region& region, const Slots& slots, const uint8_t* data) {
   const bool has_record = is_whole(*slots.newest);
   const uint32_t start = (has_record ? slots.other : slots.newest)->start;
   const uint32_t generation = (has_record ? slots.newest : slots.other)->header.generation + 1;
@@ -312,7 +314,7 @@ CO_ERR write_record(CO_NODE& node, const Region& region, const Slots& slots, con
   if (!is_loaded_next) {
     return CO_ERR_IF_NVM_WRITE;
   }
-  remember(node, record, newest);
+  remember(region, newest);
   return CO_ERR_NONE;
 }
 
@@ -341,12 +343,12 @@ Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
   for (const Slot* slot = slots.newest; slot != nullptr; slot = slot == slots.newest ? slots.other : nullptr) {
     Pass copy = {to, size, false, false};
     if (is_whole(*slot) && read_again(region, *slot, copy)) {
-      remember(node, record, *slot);
+      remember(region, *slot);
       return {slot->found, is_older};
     }
     is_older = true;
   }
-  remember(node, record, *slots.newest);
+  remember(region, *slots.newest);
   const bool is_blank = slots.newest->found == Found::blank && slots.other->found == Found::blank;
   return {is_blank ? Found::blank : Found::lost, false};
 }
@@ -365,10 +367,10 @@ CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data, store::Cau
   if (slots.newest->found == wanted && read_again(region, *slots.newest, compare) && !compare.differs) {
     return CO_ERR_NONE;
   }
-  if (is_hidden(node, record, slots)) {
+  if (is_hidden(region, slots)) {
     return CO_ERR_IF_NVM_WRITE;
   }
-  return budget::take_store(node) ? write_record(node, region, slots, data) : CO_ERR_OBJ_STATE;
+  return budget::take_store(node) ? write_record(region, slots, data) : CO_ERR_OBJ_STATE;
 }
 
 }  // namespace
@@ -381,7 +383,7 @@ bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
   return n == num;
 }
 
-uint32_t space(const CO_NODE& node, uint32_t size) {
+uint32_t space(CO_NODE& node, uint32_t size) {
   const Record record = {0, size, 0, 0};
   return 2 * Region(node, record).slot;
 }

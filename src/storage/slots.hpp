@@ -16,6 +16,6 @@ namespace co::slots {
 extern const CO_STORE_T store;
 
 // Returns the bytes of memory that a record of size bytes occupies.
-[[nodiscard]] uint32_t space(const CO_NODE& node, uint32_t size);
+[[nodiscard]] uint32_t space(CO_NODE& node, uint32_t size);
 
 }  // namespace co::slots

@@ -24,7 +24,7 @@ const CO_STORE_T& of(const CO_NODE& node) {
   return node.If.Raw != nullptr ? *node.If.Raw : none;
 }
 
-uint32_t space(const CO_NODE& node, uint32_t size) {
+uint32_t space(CO_NODE& node, uint32_t size) {
   if (port::nvm_has_shape(node)) {
     return slots::space(node, size);
   }

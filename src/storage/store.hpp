@@ -30,7 +30,7 @@ struct Loaded {
 };
 
 // Returns the bytes of memory that a record of size bytes occupies; 0: there is no memory.
-[[nodiscard]] uint32_t space(const CO_NODE& node, uint32_t size);
+[[nodiscard]] uint32_t space(CO_NODE& node, uint32_t size);
 
 // Reason of a store.
 enum class Cause : uint8_t {
