@@ -210,14 +210,10 @@ bool is_started(const CO_NODE& node) { return node.Lss.Started != 0; }
 
 #if USE_PARA
 void load(CO_NODE& node, CO_NMT_RESET type) {
-  if (type == CO_RESET_NODE) {
-    (void)para::load(node, CO_RESET_NODE);
-  } else {
-    para::load_communication(node);
-  }
-  (void)para::load(node, CO_RESET_COM);
+  (void)para::load(node, CO_RESET_NODE, type == CO_RESET_NODE ? &CO_PARA::Size : &CO_PARA::ComSize);
+  (void)para::load(node, CO_RESET_COM, &CO_PARA::Size);
 }
-void save_changes(CO_NODE& node) { para::save_changes(node); }
+void save_changes(CO_NODE& node) { para::save_changes(&node); }
 #endif
 
 #if USE_EMCY

@@ -163,7 +163,7 @@ CO_ERR CONodeParaLoad(CO_NODE* node, CO_NMT_RESET type) {
   CO_ERR err = CO_ERR_NONE;
   {
     const event::Serving serving(*node);
-    err = para::load(*node, type);
+    err = para::load(*node, type, &CO_PARA::Size);
   }
   event::run_deferred(*node);
   return err;

@@ -26,9 +26,8 @@ bool has_record(const CO_PARA& group) { return (group.Value & CO_PARA__AE) != 0;
 
 // Returns whether the records of two groups use the same addresses. The differences are unsigned: the one of the lower
 // address is large.
-bool overlap(CO_NODE& node, const CO_PARA& a, const CO_PARA& b) {
-  return has_record(a) && has_record(b) &&
-         (a.Offset - b.Offset < store::space(node, b.Size) || b.Offset - a.Offset < store::space(node, a.Size));
+bool overlap(CO_NODE& node, const store::Record& a, const store::Record& b) {
+  return a.start - b.start < store::space(node, b) || b.start - a.start < store::space(node, a);
 }
 
 // The record of a group; its sub-index of 1010h is part of the record's identity.
@@ -37,26 +36,25 @@ struct Located {
   CO_ERR err;  // CO_ERR_PARA_OVERLAP: the group overlaps one with a lower sub-index
 };
 
-// CO_PARA.Value may hold the version of the layout above its flags.
-uint32_t version_of(const CO_PARA& group) { return group.Version != 0 ? group.Version : group.Value >> version_bit; }
-
-// Returns whether two CO_PARA describe one group: the entries of 1010h and 1011h may have a CO_PARA each.
-bool is_same_group(const CO_PARA& a, const CO_PARA& b) {
-  return slots::is_same(reinterpret_cast<const uint8_t*>(&a), reinterpret_cast<const uint8_t*>(&b),
-                        offsetof(CO_PARA, Default)) &&
-         a.Type == b.Type && version_of(a) == version_of(b);
+// Returns the record of a group, without its sub-index. CO_PARA.Value may hold the version of the layout above its
+// flags.
+[[gnu::noinline]] store::Record record_of(const CO_PARA& group) {
+  return {group.Offset, group.Size, group.Version != 0 ? group.Version : group.Value >> version_bit, 0};
 }
 
 // Returns the record of a group, and whether the group must not be loaded or stored.
 Located locate(CO_NODE& node, const CO_PARA& group) {
-  Located located = {{group.Offset, group.Size, version_of(group), 0}, CO_ERR_NONE};
+  Located located = {record_of(group), CO_ERR_NONE};
   Groups groups(node, store_index);
   for (const CO_PARA* other = groups.next(); other != nullptr; other = groups.next()) {
-    if (is_same_group(*other, group)) {
+    const store::Record record = record_of(*other);
+    if (memory_of(*other) == memory_of(group) && other->Type == group.Type &&
+        slots::is_same(reinterpret_cast<const uint8_t*>(&record), reinterpret_cast<const uint8_t*>(&located.record),
+                       sizeof record)) {
       located.record.group = CO_GET_SUB(groups.entry().Key);
       break;
     }
-    if (overlap(node, *other, group)) {
+    if (has_record(*other) && has_record(group) && overlap(node, record, located.record)) {
       located.err = CO_ERR_PARA_OVERLAP;
     }
   }
@@ -95,7 +93,7 @@ CO_ERR without_delay(CO_ERR err) { return CO_PARA_BUDGET > 0 && err == CO_ERR_OB
 
 // Loads the first size bytes of a group: from its record, or the default values. The record of a group that is never
 // stored is not read, because CO_PARA.Offset may have any value; with a classic driver it is read, as in CANopen-Stack.
-[[gnu::noinline]] CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
+[[gnu::noinline]] CO_ERR load_group(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   const Located located = locate(node, group);
   const bool is_read = located.err == CO_ERR_NONE && (has_record(group) || !port::nvm_has_shape(node));
   const store::Loaded loaded =
@@ -132,9 +130,6 @@ bool has_autonomous_group(CO_NODE& node) {
   }
   return group != nullptr;
 }
-
-// Timer action: called each CO_PARA_PERIOD.
-void save_periodically(void* node) { save_changes(*static_cast<CO_NODE*>(node)); }
 
 // Returns whether the variable of an entry is located in the memory of a group.
 bool contains(const CO_PARA& group, const CO_OBJ& obj) {
@@ -184,10 +179,6 @@ CO_ERR save(CO_NODE& node, const CO_PARA& group, const uint8_t* data, store::Cau
   return located.err != CO_ERR_NONE ? located.err : store::of(node).save(node, located.record, data, cause);
 }
 
-namespace {
-
-// Loads the groups of a reset. member: which member of CO_PARA is the number of bytes to load, Size (all) or ComSize
-// (the objects of the communication profile).
 CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
   const bool is_partial = member != &CO_PARA::Size;
   CO_ERR last = CO_ERR_NONE;
@@ -195,7 +186,7 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
     const uint32_t size = group->*member;
     const bool is_loaded = group->Type == type && size <= group->Size && !(is_partial && size == 0);
-    const CO_ERR err = is_loaded && !has_unsaved_change(node, *group) ? load(node, *group, size) : CO_ERR_NONE;
+    const CO_ERR err = is_loaded && !has_unsaved_change(node, *group) ? load_group(node, *group, size) : CO_ERR_NONE;
     if (err == CO_ERR_NONE) {
       continue;
     }
@@ -208,13 +199,8 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
   return last;
 }
 
-}  // namespace
-
-CO_ERR load(CO_NODE& node, CO_NMT_RESET type) { return load(node, type, &CO_PARA::Size); }
-
-void load_communication(CO_NODE& node) { (void)load(node, CO_RESET_NODE, &CO_PARA::ComSize); }
-
-void save_changes(CO_NODE& node) {
+void save_changes(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   const budget::Command command(node);
   Groups groups(node, store_index);
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
@@ -225,7 +211,7 @@ void save_changes(CO_NODE& node) {
 void init(CO_NODE& node) {
   const uint32_t period = tmr::ticks(node, CO_PARA_PERIOD, CO_TMR_UNIT_1MS);
   if (node.Nmt.Mode == CO_INIT && period != 0 && has_autonomous_group(node)) {
-    tmr::start(node, node.ParaTmr, 0, period, save_periodically, &node);
+    tmr::start(node, node.ParaTmr, 0, period, save_changes, &node);
   } else {
     tmr::stop(node, node.ParaTmr);
   }

@@ -383,10 +383,7 @@ bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
   return n == num;
 }
 
-uint32_t space(CO_NODE& node, uint32_t size) {
-  const Record record = {0, size, 0, 0};
-  return 2 * Region(node, record).slot;
-}
+uint32_t space(CO_NODE& node, const Record& record) { return 2 * Region(node, record).slot; }
 
 const CO_STORE_T store = {load, save};
 

@@ -15,7 +15,7 @@ namespace co::slots {
 // last, cannot be read now (CO_ERR_IF_NVM_WRITE).
 extern const CO_STORE_T store;
 
-// Returns the bytes of memory that a record of size bytes occupies.
-[[nodiscard]] uint32_t space(CO_NODE& node, uint32_t size);
+// Returns the bytes of memory that a record occupies.
+[[nodiscard]] uint32_t space(CO_NODE& node, const store::Record& record);
 
 }  // namespace co::slots

@@ -24,11 +24,11 @@ const CO_STORE_T& of(const CO_NODE& node) {
   return node.If.Raw != nullptr ? *node.If.Raw : none;
 }
 
-uint32_t space(CO_NODE& node, uint32_t size) {
+uint32_t space(CO_NODE& node, const Record& record) {
   if (port::nvm_has_shape(node)) {
-    return slots::space(node, size);
+    return slots::space(node, record);
   }
-  return node.If.Raw != nullptr && port::nvm_exists(node) ? size : 0;
+  return node.If.Raw != nullptr && port::nvm_exists(node) ? record.size : 0;
 }
 
 }  // namespace co::store

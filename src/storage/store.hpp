@@ -29,8 +29,8 @@ struct Loaded {
   bool is_older;  // the newest record is damaged, the one before it was loaded
 };
 
-// Returns the bytes of memory that a record of size bytes occupies; 0: there is no memory.
-[[nodiscard]] uint32_t space(CO_NODE& node, uint32_t size);
+// Returns the bytes of memory that a record occupies; 0: there is no memory.
+[[nodiscard]] uint32_t space(CO_NODE& node, const Record& record);
 
 // Reason of a store.
 enum class Cause : uint8_t {
