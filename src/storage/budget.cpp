@@ -9,7 +9,7 @@
 namespace co::budget {
 namespace {
 
-constexpr uint32_t refill_time = 60000;  // ms
+constexpr uint32_t refill_time = 60;  // s
 
 void refill(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
@@ -21,7 +21,8 @@ void refill(void* node_pointer) {
 
 // Starts the timer that refills the budget: each minute, or at the end of the timer's range if that is shorter.
 void start(CO_NODE& node) {
-  const uint32_t ticks = tmr::ticks(node, refill_time, CO_TMR_UNIT_1MS);
+  constexpr uint32_t seconds = 1;
+  const uint32_t ticks = tmr::ticks(node, refill_time, seconds);
   tmr::start(node, node.BudgetTmr, 0, ticks != 0 ? ticks : UINT32_MAX, refill, &node);
 }
 

@@ -48,8 +48,8 @@ CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
 }
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
-  const CO_OBJ_TYPE* const type = is_number_of_groups(*obj) ? CO_TUNSIGNED8 : CO_TUNSIGNED32;
-  return type->Size(obj, node, width);
+  return is_number_of_groups(*obj) ? integer::Number<1>::size(obj, node, width)
+                                   : integer::Number<4>::size(obj, node, width);
 }
 
 // Reads the operations that the network can execute on the groups of an entry. A group is stored autonomously only in
@@ -98,12 +98,6 @@ CO_ERR init_verify(CO_OBJ* obj, CO_NODE* node) {
   return err;
 }
 
-uint32_t size_verify(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return integer::Number<4>::size(obj, node, width); }
-
-CO_ERR read_verify(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return integer::Number<4>::read(obj, node, buffer, size);
-}
-
 CO_ERR write_verify(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   const CO_ERR err = integer::Number<4>::write(obj, node, buffer, size);
   uint32_t value = 0;
@@ -143,8 +137,8 @@ const CO_OBJ_TYPE COTParaStore = {para::size, para::init_entry<rules::parameter_
                                   para::read, para::write, nullptr};
 const CO_OBJ_TYPE COTParaRestore = {para::size, para::init_entry<rules::parameter_group_number, rules::parameter_group>,
                                     para::read, para::write, nullptr};
-const CO_OBJ_TYPE COTVerifyConfig = {para::size_verify, para::init_verify, para::read_verify, para::write_verify,
-                                     nullptr};
+const CO_OBJ_TYPE COTVerifyConfig = {integer::Number<4>::size, para::init_verify, integer::Number<4>::read,
+                                     para::write_verify, nullptr};
 
 CO_ERR COParaStore(const CO_PARA* pg, CO_NODE* node) {
   ASSERT_PTR_ERR(pg, CO_ERR_BAD_ARG);

@@ -119,9 +119,6 @@ struct Pass {
 
 void use(Pass& pass, const uint8_t* bytes, uint32_t size) {
   const uint32_t used = size < pass.left ? size : pass.left;
-  if (used == 0) {
-    return;
-  }
   if (!pass.compares) {
     __builtin_memcpy(pass.data, bytes, used);
   } else if (!is_same(bytes, pass.data, used)) {
@@ -133,7 +130,7 @@ void use(Pass& pass, const uint8_t* bytes, uint32_t size) {
 
 // Adds size bytes of the memory to the CRC, in pieces. Returns false if they cannot be read. The application's memory
 // is written with the node lock held.
-bool add_to_crc(const Region& region, uint32_t start, uint32_t size, wire::Crc32& crc, Pass& pass) {
+bool add_to_crc(const Region& region, uint32_t start, uint32_t size, wire::Crc32& crc, Pass* pass) {
   uint8_t buffer[CO_STORE_BUFFER];
   while (size != 0) {
     const uint32_t piece = piece_of(region, size);
@@ -141,7 +138,9 @@ bool add_to_crc(const Region& region, uint32_t start, uint32_t size, wire::Crc32
       return false;
     }
     crc.add(buffer, piece);
-    use(pass, buffer, piece);
+    if (pass != nullptr) {
+      use(*pass, buffer, piece);
+    }
     start += piece;
     size -= piece;
   }
@@ -155,9 +154,9 @@ bool is_blank(const Header& header) {
   return uniform && (*bytes == erased || *bytes == 0);
 }
 
-// Reads header and data of a slot; the data are copied or compared as pass requires. Returns what the slot holds;
+// Reads header and data of a slot; pass: null, or how the data are used. Returns what the slot holds;
 // Found::lost if its header or its CRC is invalid. A header that cannot be read is 0 throughout.
-Found read_slot(const Region& region, uint32_t start, Header& header, Pass& pass) {
+Found read_slot(const Region& region, uint32_t start, Header& header, Pass* pass) {
   if (!read(region, start, &header, sizeof header)) {
     header = {};
     return Found::lost;
@@ -188,7 +187,7 @@ bool is_newer(const Slot& slot, const Slot& other) {
 // Reads a slot again. Returns whether it still holds the same.
 [[gnu::noinline]] bool read_again(const Region& region, const Slot& slot, Pass& pass) {
   Header header;
-  return read_slot(region, slot.start, header, pass) == slot.found;
+  return read_slot(region, slot.start, header, &pass) == slot.found;
 }
 
 // Both slots of a record.
@@ -196,9 +195,8 @@ struct Slots {
   explicit Slots(const Region& region) {
     uint32_t start = region.record.start;
     for (Slot& each : slot) {
-      Pass none = {};
       each.start = start;
-      each.found = read_slot(region, start, each.header, none);
+      each.found = read_slot(region, start, each.header, nullptr);
       start += region.slot;
     }
     const bool is_swapped = is_newer(slot[1], slot[0]);
