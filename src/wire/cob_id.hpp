@@ -42,13 +42,15 @@ constexpr bool is_restricted(uint32_t id) {
 constexpr bool is_default_sdo_tx(uint32_t id) { return id >= 0x581 && id <= 0x5FF; }
 constexpr bool is_default_sdo_rx(uint32_t id) { return id >= 0x601 && id <= 0x67F; }
 
+constexpr bool is_valid(uint32_t cob_id) { return (cob_id & cob_invalid) == 0; }
+
 // Returns whether the CAN-ID fits the frame format that bit 29 selects.
 constexpr bool fits_format(uint32_t cob_id) { return (cob_id & cob_frame) != 0 || (cob_id & extended_ids) <= base_ids; }
 
 // Returns whether an object can have frames with this COB-ID: it is valid, its CAN-ID fits its frame format and is not
 // 000h, which always belongs to NMT.
 constexpr bool is_usable(uint32_t cob_id) {
-  return (cob_id & cob_invalid) == 0 && fits_format(cob_id) && (cob_id & extended_ids) != 0;
+  return is_valid(cob_id) && fits_format(cob_id) && (cob_id & extended_ids) != 0;
 }
 
 // Value that is no identifier of a frame: the object has no frames.

@@ -5,44 +5,79 @@
 
 #include "co_number.h"
 #include "dictionary/dict.hpp"
+#include "dictionary/parameter.hpp"
 #include "dictionary/types/number.hpp"
+#include "wire/cob_id.hpp"
 
 namespace co::integer {
 namespace {
 
-// Reads a number of 1, 2 or 4 bytes from a variable of the same size; with flag N the node-ID is added.
-[[gnu::noinline]] CO_ERR read_number(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned bytes) {
+// Adds the node-ID, or its negative, to a number.
+[[gnu::noinline]] uint32_t shift(uint32_t number, uint32_t by, unsigned format) {
+  uint32_t ids = UINT32_MAX >> (32U - 8U * bytes_of(format));
+  if (format == cob_id) {
+    ids = (number & wire::cob_frame) != 0 ? wire::extended_ids : wire::base_ids;
+  }
+  return (number & ~ids) | ((number + by) & ids);
+}
+
+// Returns the number at the address of an entry's value, as the network sees it: with flag N the node-ID is added.
+inline uint32_t value_at(const void* address, const CO_OBJ& obj, const CO_NODE& node, unsigned format) {
+  const uint32_t stored = load<uint32_t>(address, bytes_of(format));
+  return CO_IS_NODEID(obj.Key) != 0 ? shift(stored, node.NodeId, format) : stored;
+}
+
+[[gnu::noinline]] CO_ERR read_number(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned format) {
+  const unsigned bytes = bytes_of(format);
   const void* const address = address_of_value(obj, bytes);
   if (address == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  store(buffer, load<uint32_t>(address, bytes) + node_id_of(obj, node), bytes);
+  store(buffer, value_at(address, obj, node, format), bytes);
   return CO_ERR_NONE;
-}
-
-// Writes a number of 1, 2 or 4 bytes; with flag N the node-ID is subtracted.
-[[gnu::noinline]] CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const void* buffer, unsigned bytes) {
-  const uint32_t value = load<uint32_t>(buffer, bytes) - node_id_of(obj, node);
-  return set_value<uint32_t>(obj, node, value & (UINT32_MAX >> (32U - 8U * bytes)), bytes);
 }
 
 }  // namespace
 
-template <uint8_t bytes>
-uint32_t Number<bytes>::size(CO_OBJ* obj, CO_NODE*, uint32_t) {
-  return address_of_value(*obj, bytes) == nullptr ? 0 : bytes;
+template <uint8_t format>
+uint32_t Number<format>::size(CO_OBJ* obj, CO_NODE*, uint32_t) {
+  return address_of_value(*obj, bytes_of(format)) == nullptr ? 0 : bytes_of(format);
 }
-template <uint8_t bytes>
-CO_ERR Number<bytes>::read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return size == bytes ? read_number(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+template <uint8_t format>
+CO_ERR Number<format>::read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return size == bytes_of(format) ? read_number(*obj, *node, buffer, format) : CO_ERR_BAD_ARG;
 }
-template <uint8_t bytes>
-CO_ERR Number<bytes>::write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return size == bytes ? write_number(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+template <uint8_t format>
+CO_ERR Number<format>::write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return integer::write(obj, node, buffer, size, format, nullptr);
 }
 template struct Number<1>;
 template struct Number<2>;
 template struct Number<4>;
+template struct Number<cob_id>;
+
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, const void* buffer, uint32_t size, unsigned format,
+             const Parameter* parameter) {
+  void* const address = address_of_value(*obj, size);
+  if (size != bytes_of(format) || address == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  uint32_t before = 0;
+  const uint32_t value = load<uint32_t>(buffer, size);
+  if (parameter != nullptr) {
+    before = value_at(address, *obj, *node, format);
+    const CO_ERR err = parameter->may(*node, *obj, value, before);
+    if (err != CO_ERR_NONE) {
+      return err;
+    }
+  }
+  const uint32_t stored = CO_IS_NODEID(obj->Key) != 0 ? shift(value, 0U - node->NodeId, format) : value;
+  const CO_ERR err = set_value<uint32_t>(*obj, *node, address, stored, size);
+  if (err == CO_ERR_NONE && parameter != nullptr && parameter->apply != nullptr) {
+    parameter->apply(*node, *obj, value, before);
+  }
+  return err;
+}
 
 namespace {
 

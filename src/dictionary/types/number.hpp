@@ -109,12 +109,11 @@ inline uint32_t node_id_of(const CO_OBJ& obj, const CO_NODE& node) {
   return CO_IS_NODEID(obj.Key) != 0 ? node.NodeId : 0U;
 }
 
-// Stores a value in the variable of an entry. With flag A (event-driven TPDOs) a value that is stored already is not
-// written, and any other is reported as a change. With flag D all bytes of Data are written. storage: bytes of the
-// variable, which may be more than those of the number.
+// Stores a value in the variable of an entry, at an address that address_of_value() has returned. With flag A
+// (event-driven TPDOs) a value that is stored already is not written, and any other is reported as a change. With flag
+// D all bytes of Data are written. storage: bytes of the variable, which may be more than those of the number.
 template <class T>
-inline CO_ERR set_value(CO_OBJ& obj, CO_NODE& node, T value, unsigned storage) {
-  void* const address = address_of_value(obj, storage);
+inline CO_ERR set_value(CO_OBJ& obj, CO_NODE& node, void* address, T value, unsigned storage) {
   if (address == nullptr) {
     return CO_ERR_BAD_ARG;
   }

@@ -33,7 +33,7 @@ inline CO_ERR read_wide(CO_OBJ& obj, const CO_NODE& node, void* buffer, const Fo
 
 inline CO_ERR write_wide(CO_OBJ& obj, CO_NODE& node, const void* buffer, const Format& format) {
   const uint64_t value = load<uint64_t>(buffer, format.bytes) - node_id_of(obj, node);
-  return set_value<uint64_t>(obj, node, extend(value, format), format.storage);
+  return set_value<uint64_t>(obj, node, address_of_value(obj, format.storage), extend(value, format), format.storage);
 }
 
 template <uint8_t bytes, uint8_t storage, bool is_signed = false>

@@ -6,9 +6,8 @@
 
 #include "base/callbacks.hpp"
 #include "base/routes.hpp"
-#include "dictionary/dict.hpp"
+#include "dictionary/parameter.hpp"
 #include "dictionary/types/cob_id.hpp"
-#include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/emcy.hpp"
 
@@ -24,16 +23,16 @@ void update_route(CO_NODE& node, uint8_t node_id) {
   routes::change(node, identifier, routes::Service::emcy_consumer, node_id);
 }
 
-bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) { return cob_id::may_replace(before, value); }
+CO_ERR may_replace(CO_NODE&, const CO_OBJ&, uint32_t value, uint32_t before) {
+  return cob_id::may_replace(before, value) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
+}
 
-CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const CO_ERR err = cob_id::write(*obj, *node, buffer, size, may_replace);
-  const uint8_t node_id = CO_GET_SUB(obj->Key);
-  if (err == CO_ERR_NONE && node->Nmt.Mode != CO_INVALID && dict::is_number(node_id - 1U, CO_EMCY_CONS_N)) {
-    update_route(*node, node_id);
-    routes::publish(*node);
+void apply(CO_NODE& node, const CO_OBJ& obj, uint32_t, uint32_t) {
+  const uint8_t node_id = CO_GET_SUB(obj.Key);
+  if (node.Nmt.Mode != CO_INVALID && dict::is_number(node_id - 1U, CO_EMCY_CONS_N)) {
+    update_route(node, node_id);
+    routes::publish(node);
   }
-  return err;
 }
 
 }  // namespace
@@ -55,8 +54,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
 
 }  // namespace co::emcy
 
-extern "C" const CO_OBJ_TYPE COTEmcyCons = {co::integer::Number<4>::size,
-                                            co::dict::checked_by<co::rules::emcy_consumer>, co::cob_id::read,
-                                            co::emcy::write, nullptr};
+extern "C" const CO_OBJ_TYPE COTEmcyCons =
+    co::parameter<co::integer::cob_id, co::rules::emcy_consumer, co::emcy::may_replace, co::emcy::apply>;
 
 #endif

@@ -4,9 +4,8 @@
 
 #if USE_EMCY
 
-#include "dictionary/dict.hpp"
+#include "dictionary/parameter.hpp"
 #include "dictionary/types/cob_id.hpp"
-#include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 
 namespace co::emcy {
@@ -14,27 +13,24 @@ namespace {
 
 constexpr uint32_t reserved = 1U << 30;
 
-bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
-
-// Returns whether a COB-ID may be written. A restricted CAN-ID is refused in a COB-ID that is not valid, too. [P5]
-bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
+// Checks a COB-ID. A restricted CAN-ID is refused in a COB-ID that is not valid, too. [P5]
+CO_ERR may_replace(CO_NODE&, const CO_OBJ&, uint32_t value, uint32_t before) {
   const bool is_usable = cob_id::is_free(value) && (value & reserved) == 0;
-  return value == before || (is_usable && !(is_valid(before) && is_valid(value)));
+  return value == before || (is_usable && !(wire::is_valid(before) && wire::is_valid(value))) ? CO_ERR_NONE
+                                                                                              : CO_ERR_OBJ_RANGE;
 }
 
-CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const uint32_t before = identifier(*node);
-  const CO_ERR err = cob_id::write(*obj, *node, buffer, size, may_replace);
-  if (identifier(*node) == wire::no_frame) {
-    withdraw(*node, before);
+// Drops the messages that wait with the identifier before, if there is no new one.
+void apply(CO_NODE& node, const CO_OBJ&, uint32_t value, uint32_t before) {
+  if (!wire::is_valid(value) && wire::is_usable(before)) {
+    withdraw(node, wire::frame_id(before));
   }
-  return err;
 }
 
 }  // namespace
 }  // namespace co::emcy
 
-extern "C" const CO_OBJ_TYPE COTEmcyId = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::emcy_cob_id>,
-                                          co::cob_id::read, co::emcy::write, nullptr};
+extern "C" const CO_OBJ_TYPE COTEmcyId =
+    co::parameter<co::integer::cob_id, co::rules::emcy_cob_id, co::emcy::may_replace, co::emcy::apply>;
 
 #endif

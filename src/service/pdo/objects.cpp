@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1400h…1BFFh: communication and mapping parameters of PDOs. [301:7.5.2.35-38]
 #include "base/timer.hpp"
-#include "dictionary/dict.hpp"
+#include "dictionary/parameter.hpp"
 #include "dictionary/types/cob_id.hpp"
-#include "dictionary/types/integer.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/multiplex.hpp"
 #include "wire/cob_id.hpp"
@@ -53,38 +52,31 @@ bool read_before(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& number, uint32_t
 
 // Sub 1 --------------------------------------------------------------------------------------------------------------
 
-// Returns whether a COB-ID may be written. Bit 30 is ignored in RPDOs. Without USE_PDO_RTR a TPDO that exists must have
-// it set: remote requests are not answered.
-bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
-  const bool asked = USE_PDO_RTR == 0 && is_tpdo(obj) && ((value & changeable_flags) == 0);
-  const bool same = ((before ^ value) & ~CO_TPDO_COBID_REMOTE) == 0;
-  return !asked && (same || cob_id::may_replace(before, value));
-}
-
 // Not inlined, so that its map is not on the CPU's stack while the PDO is configured.
 [[gnu::noinline]] bool can_exist(CO_NODE& node, const CO_OBJ& obj) {
   CO_PDO_MAP map;
   return pdo::resolve(node, communication_of(obj), map).err == CO_ERR_NONE;
 }
 
-CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (size != sizeof(uint32_t)) {
-    return CO_ERR_BAD_ARG;
+// Returns whether a COB-ID may replace another. Bit 30 is ignored in RPDOs. Without USE_PDO_RTR a TPDO that exists must
+// have it set: remote requests are not answered.
+bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
+  const bool asked = USE_PDO_RTR == 0 && is_tpdo(obj) && ((value & changeable_flags) == 0);
+  const bool same = ((before ^ value) & ~CO_TPDO_COBID_REMOTE) == 0;
+  return !asked && (same || cob_id::may_replace(before, value));
+}
+
+CO_ERR may_have_id(CO_NODE& node, const CO_OBJ& obj, uint32_t value, uint32_t before) {
+  const bool is_new = !wire::is_valid(before) && wire::is_valid(value);
+  const bool is_possible = may_replace(obj, before, value) && (!is_new || can_exist(node, obj));
+  return is_possible ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
+}
+
+// Configures the PDO if its COB-ID or its transmission type has changed.
+void apply(CO_NODE& node, const CO_OBJ& obj, uint32_t value, uint32_t before) {
+  if (value != before) {
+    configure(node, obj);
   }
-  const auto value = integer::get_u32(buffer);
-  const bool is_new = !exists(*node, *obj) && (value & wire::cob_invalid) == 0;
-  if (is_new && !can_exist(*node, *obj)) {
-    return CO_ERR_OBJ_RANGE;
-  }
-  uint32_t before = 0;
-  CO_ERR err = cob_id::read(obj, node, &before, size);
-  if (err == CO_ERR_NONE) {
-    err = cob_id::write(*obj, *node, buffer, size, may_replace);
-  }
-  if (err == CO_ERR_NONE && value != before) {
-    configure(*node, *obj);
-  }
-  return err;
 }
 
 // Sub 2 --------------------------------------------------------------------------------------------------------------
@@ -186,8 +178,7 @@ CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTPdoId = {co::integer::Number<4>::size, dict::checked_by<rules::pdo_cob_id>, cob_id::read,
-                              write_cob_id, nullptr};
+const CO_OBJ_TYPE COTPdoId = parameter<integer::cob_id, rules::pdo_cob_id, may_have_id, apply>;
 const CO_OBJ_TYPE COTPdoType = {Byte::size, dict::checked_by<rules::pdo_type>, Byte::read, write_type, nullptr};
 const CO_OBJ_TYPE COTPdoInhibit = {Half::size, dict::checked_by<rules::pdo_inhibit>, Half::read,
                                    write_fixed<uint16_t, COTInt16, UINT16_MAX>, nullptr};

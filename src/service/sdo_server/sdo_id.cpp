@@ -4,16 +4,12 @@
 
 #include "base/events.hpp"
 #include "co_core.h"
-#include "dictionary/dict.hpp"
-#include "dictionary/types/cob_id.hpp"
-#include "dictionary/types/integer.hpp"
+#include "dictionary/parameter.hpp"
 #include "wire/cob_id.hpp"
 
 namespace {
 
 using namespace co;
-
-bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
 
 // Returns whether a CAN-ID is allowed. A client may use the CAN-IDs of another node's default SDO server.
 bool may_use(const CO_OBJ& obj, uint32_t id) {
@@ -23,22 +19,19 @@ bool may_use(const CO_OBJ& obj, uint32_t id) {
   return id != 0 && (CO_RESTRICTED_IDS != 0 || !wire::is_restricted(id) || (of_client && of_server));
 }
 
-bool is_allowed(const CO_OBJ& obj, uint32_t before, uint32_t value) {
-  if (!is_valid(value) || value == before) {
+bool is_allowed(const CO_OBJ& obj, uint32_t value, uint32_t before) {
+  if (!wire::is_valid(value) || value == before) {
     return true;
   }
-  return !is_valid(before) && wire::fits_format(value) && may_use(obj, value & wire::extended_ids);
+  return !wire::is_valid(before) && wire::fits_format(value) && may_use(obj, value & wire::extended_ids);
 }
 
-CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const CO_ERR err = cob_id::write(*obj, *node, buffer, size, is_allowed);
-  if (err == CO_ERR_NONE) {
-    event::defer(*node, event::configure);
-  }
-  return err;
+CO_ERR may_replace(CO_NODE&, const CO_OBJ& obj, uint32_t value, uint32_t before) {
+  return is_allowed(obj, value, before) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
+
+void configure(CO_NODE& node, const CO_OBJ&, uint32_t, uint32_t) { event::defer(node, event::configure); }
 
 }  // namespace
 
-extern "C" const CO_OBJ_TYPE COTSdoId = {co::integer::Number<4>::size, dict::checked_by<rules::sdo_cob_id>,
-                                         cob_id::read, write, nullptr};
+extern "C" const CO_OBJ_TYPE COTSdoId = parameter<integer::cob_id, rules::sdo_cob_id, may_replace, configure>;

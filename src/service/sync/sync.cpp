@@ -6,9 +6,8 @@
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
-#include "dictionary/dict.hpp"
+#include "dictionary/parameter.hpp"
 #include "dictionary/types/cob_id.hpp"
-#include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 
@@ -100,21 +99,18 @@ void configure(CO_NODE& node) {
 
 // Objects ------------------------------------------------------------------------------------------------------------
 
-// Returns whether a COB-ID may be written. A producer cannot change its CAN-ID, but may become a consumer.
-bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
+// Checks a COB-ID. A producer cannot change its CAN-ID, but may become a consumer.
+CO_ERR may_replace(CO_NODE&, const CO_OBJ&, uint32_t value, uint32_t before) {
   constexpr uint32_t own_bits = ~(producer | wire::cob_invalid);
   const bool same = ((before ^ value) & own_bits) == 0;
-  return same || ((before & producer) == 0 && cob_id::is_free(value));
+  return same || ((before & producer) == 0 && cob_id::is_free(value)) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
 
-CO_ERR write_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const uint32_t before = read(*node, id_index);
-  const CO_ERR err = size == sizeof(uint32_t) ? cob_id::write(*obj, *node, buffer, size, may_replace) : CO_ERR_BAD_ARG;
-  if (err == CO_ERR_NONE && read(*node, id_index) != before) {
-    configure(*node);
-    routes::publish(*node);
+void apply_id(CO_NODE& node, const CO_OBJ&, uint32_t value, uint32_t before) {
+  if (value != before) {
+    configure(node);
+    routes::publish(node);
   }
-  return err;
 }
 
 // Writes 1006h (communication cycle period) or 1007h (synchronous window length), in µs.
@@ -205,8 +201,8 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTSyncId = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::sync_cob_id>,
-                               co::cob_id::read, co::sync::write_id, nullptr};
+const CO_OBJ_TYPE COTSyncId =
+    co::parameter<co::integer::cob_id, co::rules::sync_cob_id, co::sync::may_replace, co::sync::apply_id>;
 const CO_OBJ_TYPE COTSyncCycle = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::sync_cycle>,
                                   co::integer::Number<4>::read, co::sync::write_cycle, nullptr};
 const CO_OBJ_TYPE COTSyncCount = {co::integer::Number<1>::size, co::dict::checked_by<co::rules::sync_counter>,

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1012h, and the clock as an object.
 #include "base/routes.hpp"
-#include "dictionary/dict.hpp"
+#include "dictionary/parameter.hpp"
 #include "dictionary/types/cob_id.hpp"
-#include "dictionary/types/integer.hpp"
 #include "service/time/time.hpp"
 #include "wire/time.hpp"
 
@@ -15,22 +14,19 @@ using namespace co;
 
 // COB-ID TIME. [301:7.5.2.15]
 
-// Returns whether a COB-ID may be written. A consumer or producer cannot change its CAN-ID.
-bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
+// Checks a COB-ID. A consumer or producer cannot change its CAN-ID.
+CO_ERR may_replace(CO_NODE&, const CO_OBJ&, uint32_t value, uint32_t before) {
   constexpr uint32_t exists = CO_TIME_COBID_CONSUME | CO_TIME_COBID_PRODUCE;
-  if ((before & exists) != 0) {
-    return ((before ^ value) & ~exists) == 0;
-  }
-  return value == before || cob_id::is_free(value);
+  const bool same = ((before ^ value) & ~exists) == 0;
+  const bool is_new = (before & exists) == 0 && (value == before || cob_id::is_free(value));
+  return is_new || ((before & exists) != 0 && same) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
 
-CO_ERR write_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const CO_ERR err = cob_id::write(*obj, *node, buffer, size, may_replace);
-  if (err == CO_ERR_NONE && node->Nmt.Mode != CO_INVALID) {
-    time::init(*node);
-    routes::publish(*node);
+void apply(CO_NODE& node, const CO_OBJ&, uint32_t, uint32_t) {
+  if (node.Nmt.Mode != CO_INVALID) {
+    time::init(node);
+    routes::publish(node);
   }
-  return err;
 }
 
 // The clock has no variable: the bytes that are read and written are those of a TIME message.
@@ -62,8 +58,7 @@ CO_ERR write(CO_OBJ*, CO_NODE* node, void* buffer, uint32_t size) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTTimeId = {co::integer::Number<4>::size, dict::checked_by<rules::time_cob_id>, cob_id::read,
-                               write_id, nullptr};
+const CO_OBJ_TYPE COTTimeId = parameter<integer::cob_id, rules::time_cob_id, may_replace, apply>;
 const CO_OBJ_TYPE COTTimeClock = {size, nullptr, read, write, nullptr};
 
 }  // extern "C"

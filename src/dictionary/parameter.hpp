@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Definition of the types of parameters: objects that hold one number, which the stack checks and applies.
+#pragma once
+
+#include "co_core.h"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/integer.hpp"
+
+namespace co::integer {
+
+// What distinguishes a parameter from other numbers of its format. value, before: the value that is written and the
+// present one, as the network sees them
+struct Parameter {
+  // Returns the error of a value, CO_ERR_NONE if it may be written.
+  CO_ERR (*may)(CO_NODE& node, const CO_OBJ& obj, uint32_t value, uint32_t before);
+  // Applies a value that was written, also if it is equal to the one before. May be null.
+  void (*apply)(CO_NODE& node, const CO_OBJ& obj, uint32_t value, uint32_t before);
+};
+
+// Checks, stores and applies a value. parameter: null if every value may be written. The other arguments are those of
+// a type's Write function.
+[[nodiscard]] CO_ERR write(CO_OBJ* obj, CO_NODE* node, const void* buffer, uint32_t size, unsigned format,
+                           const Parameter* parameter);
+
+template <uint8_t format, decltype(Parameter::may) may, decltype(Parameter::apply) apply>
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  static constexpr Parameter parameter = {may, apply};
+  return write(obj, node, buffer, size, format, &parameter);
+}
+
+}  // namespace co::integer
+
+namespace co {
+
+// Type of a parameter. format: width in bytes (1, 2 or 4) or integer::cob_id; rule: that of the entry
+template <uint8_t format, const rules::Rule& rule, decltype(integer::Parameter::may) may,
+          decltype(integer::Parameter::apply) apply = nullptr>
+inline constexpr CO_OBJ_TYPE parameter = {integer::Number<integer::bytes_of(format)>::size, dict::checked_by<rule>,
+                                          integer::Number<format>::read, integer::write<format, may, apply>, nullptr};
+
+}  // namespace co
