@@ -2,6 +2,7 @@
 // Definition of the types of parameters: objects that hold one number, which the stack checks and applies.
 #pragma once
 
+#include "base/timer.hpp"
 #include "co_core.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/integer.hpp"
@@ -12,9 +13,9 @@ namespace co::integer {
 // present one, as the network sees them
 struct Parameter {
   // Returns the error of a value, CO_ERR_NONE if it may be written.
-  CO_ERR (*may)(CO_NODE& node, const CO_OBJ& obj, uint32_t value, uint32_t before);
+  CO_ERR (*may)(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before);
   // Applies a value that was written, also if it is equal to the one before. May be null.
-  void (*apply)(CO_NODE& node, const CO_OBJ& obj, uint32_t value, uint32_t before);
+  void (*apply)(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before);
 };
 
 // Checks, stores and applies a value. parameter: null if every value may be written. The other arguments are those of
@@ -31,6 +32,16 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 }  // namespace co::integer
 
 namespace co {
+
+// Permissions of parameters: values up to highest; times in units of 1/unit seconds that the timer can count.
+template <uint32_t highest>
+CO_ERR at_most(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t) {
+  return value > highest ? CO_ERR_OBJ_RANGE : CO_ERR_NONE;
+}
+template <uint32_t unit>
+CO_ERR fits_timer(CO_NODE& node, CO_OBJ&, uint32_t value, uint32_t) {
+  return value != 0 && tmr::ticks(node, value, unit) == 0 ? CO_ERR_OBJ_RANGE : CO_ERR_NONE;
+}
 
 // Type of a parameter. format: width in bytes (1, 2 or 4) or integer::cob_id; rule: that of the entry
 template <uint8_t format, const rules::Rule& rule, decltype(integer::Parameter::may) may,

@@ -88,15 +88,7 @@ template <uint8_t bytes>
 constexpr CO_OBJ_TYPE table = {Number<bytes>::size, dict::checked_by<rule<bytes>>, Number<bytes>::read,
                                Number<bytes>::write, nullptr};
 
-using Byte = Number<1>;
 using Real32 = Number<4>;
-
-CO_ERR write_boolean(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (size == 1 && *static_cast<const uint8_t*>(buffer) > 1) {
-    return CO_ERR_OBJ_RANGE;
-  }
-  return Byte::write(obj, node, buffer, size);
-}
 
 }  // namespace
 
@@ -116,6 +108,6 @@ const CO_OBJ_TYPE COTInt16 = table<2>;
 const CO_OBJ_TYPE COTInt32 = table<4>;
 // The rules of these types refuse flag N, which has no meaning for them.
 const CO_OBJ_TYPE COTReal32 = {Real32::size, dict::checked_by<rules::variable>, Real32::read, Real32::write, nullptr};
-const CO_OBJ_TYPE COTBoolean = {Byte::size, dict::checked_by<rules::boolean>, Byte::read, write_boolean, nullptr};
+const CO_OBJ_TYPE COTBoolean = parameter<1, rules::boolean, at_most<1>>;
 
 }  // extern "C"

@@ -23,11 +23,11 @@ void update_route(CO_NODE& node, uint8_t node_id) {
   routes::change(node, identifier, routes::Service::emcy_consumer, node_id);
 }
 
-CO_ERR may_replace(CO_NODE&, const CO_OBJ&, uint32_t value, uint32_t before) {
+CO_ERR may_replace(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {
   return cob_id::may_replace(before, value) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
 
-void apply(CO_NODE& node, const CO_OBJ& obj, uint32_t, uint32_t) {
+void apply(CO_NODE& node, CO_OBJ& obj, uint32_t, uint32_t) {
   const uint8_t node_id = CO_GET_SUB(obj.Key);
   if (node.Nmt.Mode != CO_INVALID && dict::is_number(node_id - 1U, CO_EMCY_CONS_N)) {
     update_route(node, node_id);

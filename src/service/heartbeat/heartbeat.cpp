@@ -4,8 +4,7 @@
 #include "base/events.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
-#include "dictionary/dict.hpp"
-#include "dictionary/types/integer.hpp"
+#include "dictionary/parameter.hpp"
 #include "wire/nmt.hpp"
 
 namespace co::heartbeat {
@@ -28,22 +27,11 @@ void restart(CO_NODE& node, uint32_t ticks) {
   }
 }
 
-// 1017h, producer heartbeat time. [301:7.5.2.20] The basic type stores the value.
-
-CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (size != sizeof(uint16_t)) {
-    return CO_ERR_BAD_ARG;
+// 1017h, producer heartbeat time. [301:7.5.2.20]
+void apply(CO_NODE& node, CO_OBJ&, uint32_t value, uint32_t) {
+  if (is_allowed(node)) {
+    restart(node, period(node, value));
   }
-  const uint16_t ms = integer::get_u16(buffer);
-  const uint32_t ticks = period(*node, ms);
-  if (ms != 0 && ticks == 0) {
-    return CO_ERR_OBJ_RANGE;
-  }
-  const CO_ERR err = integer::Number<2>::write(obj, node, buffer, size);
-  if (err == CO_ERR_NONE && is_allowed(*node)) {
-    restart(*node, ticks);
-  }
-  return err;
 }
 
 }  // namespace
@@ -61,6 +49,5 @@ void on_mode(CO_NODE& node) {
 
 }  // namespace co::heartbeat
 
-extern "C" const CO_OBJ_TYPE COTNmtHbProd = {co::integer::Number<2>::size,
-                                             co::dict::checked_by<co::rules::heartbeat_producer>,
-                                             co::integer::Number<2>::read, co::heartbeat::write, nullptr};
+extern "C" const CO_OBJ_TYPE COTNmtHbProd =
+    co::parameter<2, co::rules::heartbeat_producer, co::fits_timer<CO_TMR_UNIT_1MS>, co::heartbeat::apply>;

@@ -3,8 +3,7 @@
 #include "co_nmt.h"
 
 #include "base/events.hpp"
-#include "dictionary/dict.hpp"
-#include "dictionary/types/integer.hpp"
+#include "dictionary/parameter.hpp"
 #include "service/nmt/nmt.hpp"
 
 namespace co::nmt {
@@ -44,28 +43,11 @@ CO_MODE mode_for_switch(CO_NODE& node) {
 
 }  // namespace co::nmt
 
-namespace {
-
 using namespace co;
-
-uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return integer::Number<1>::size(obj, node, width); }
-
-CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return integer::Number<1>::read(obj, node, buffer, size);
-}
-
-CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (size == sizeof(uint8_t) && *static_cast<const uint8_t*>(buffer) > CO_ERROR_BEHAVIOUR_STOP) {
-    return CO_ERR_OBJ_RANGE;
-  }
-  return integer::Number<1>::write(obj, node, buffer, size);
-}
-
-}  // namespace
 
 extern "C" {
 
-const CO_OBJ_TYPE COTErrorBehaviour = {size, dict::checked_by<rules::error_behaviour>, read, write, nullptr};
+const CO_OBJ_TYPE COTErrorBehaviour = parameter<1, rules::error_behaviour, at_most<CO_ERROR_BEHAVIOUR_STOP>>;
 
 CO_ERR COErrorBehaviour(CO_NODE* node, uint8_t sub) {
   if (node == nullptr || sub == 0 || sub > rules::error_behaviour.last_sub) {

@@ -66,14 +66,14 @@ bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
   return !asked && (same || cob_id::may_replace(before, value));
 }
 
-CO_ERR may_have_id(CO_NODE& node, const CO_OBJ& obj, uint32_t value, uint32_t before) {
+CO_ERR may_have_id(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before) {
   const bool is_new = !wire::is_valid(before) && wire::is_valid(value);
   const bool is_possible = may_replace(obj, before, value) && (!is_new || can_exist(node, obj));
   return is_possible ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
 
 // Configures the PDO if its COB-ID or its transmission type has changed.
-void apply(CO_NODE& node, const CO_OBJ& obj, uint32_t value, uint32_t before) {
+void apply(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before) {
   if (value != before) {
     configure(node, obj);
   }

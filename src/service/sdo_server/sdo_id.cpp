@@ -26,11 +26,11 @@ bool is_allowed(const CO_OBJ& obj, uint32_t value, uint32_t before) {
   return !wire::is_valid(before) && wire::fits_format(value) && may_use(obj, value & wire::extended_ids);
 }
 
-CO_ERR may_replace(CO_NODE&, const CO_OBJ& obj, uint32_t value, uint32_t before) {
+CO_ERR may_replace(CO_NODE&, CO_OBJ& obj, uint32_t value, uint32_t before) {
   return is_allowed(obj, value, before) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
 
-void configure(CO_NODE& node, const CO_OBJ&, uint32_t, uint32_t) { event::defer(node, event::configure); }
+void configure(CO_NODE& node, CO_OBJ&, uint32_t, uint32_t) { event::defer(node, event::configure); }
 
 }  // namespace
 

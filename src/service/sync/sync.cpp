@@ -100,13 +100,13 @@ void configure(CO_NODE& node) {
 // Objects ------------------------------------------------------------------------------------------------------------
 
 // Checks a COB-ID. A producer cannot change its CAN-ID, but may become a consumer.
-CO_ERR may_replace(CO_NODE&, const CO_OBJ&, uint32_t value, uint32_t before) {
+CO_ERR may_replace(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {
   constexpr uint32_t own_bits = ~(producer | wire::cob_invalid);
   const bool same = ((before ^ value) & own_bits) == 0;
   return same || ((before & producer) == 0 && cob_id::is_free(value)) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
 
-void apply_id(CO_NODE& node, const CO_OBJ&, uint32_t value, uint32_t before) {
+void apply_id(CO_NODE& node, CO_OBJ&, uint32_t value, uint32_t before) {
   if (value != before) {
     configure(node);
     routes::publish(node);

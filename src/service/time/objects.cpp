@@ -15,14 +15,14 @@ using namespace co;
 // COB-ID TIME. [301:7.5.2.15]
 
 // Checks a COB-ID. A consumer or producer cannot change its CAN-ID.
-CO_ERR may_replace(CO_NODE&, const CO_OBJ&, uint32_t value, uint32_t before) {
+CO_ERR may_replace(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {
   constexpr uint32_t exists = CO_TIME_COBID_CONSUME | CO_TIME_COBID_PRODUCE;
   const bool same = ((before ^ value) & ~exists) == 0;
   const bool is_new = (before & exists) == 0 && (value == before || cob_id::is_free(value));
   return is_new || ((before & exists) != 0 && same) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
 
-void apply(CO_NODE& node, const CO_OBJ&, uint32_t, uint32_t) {
+void apply(CO_NODE& node, CO_OBJ&, uint32_t, uint32_t) {
   if (node.Nmt.Mode != CO_INVALID) {
     time::init(node);
     routes::publish(node);
