@@ -6,8 +6,7 @@
 #include "base/routes.hpp"
 #include "base/transmit.hpp"
 #include "co_assert.h"
-#include "dictionary/dict.hpp"
-#include "dictionary/types/integer.hpp"
+#include "dictionary/parameter.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 
@@ -34,25 +33,15 @@ CO_ERR send(CO_NODE& node) {
   return sent ? CO_ERR_NONE : CO_ERR_IF_CAN_SEND;
 }
 
-uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return integer::Number<1>::size(obj, node, width); }
-
-CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return integer::Number<1>::read(obj, node, buffer, size);
+CO_ERR may_use(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before) {
+  return is_operational(node) ? CO_ERR_OBJ_STATE : at_most<1>(node, obj, value, before);
 }
 
-CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (is_operational(*node)) {
-    return CO_ERR_OBJ_STATE;
+void apply(CO_NODE& node, CO_OBJ&, uint32_t, uint32_t) {
+  if (node.Nmt.Mode != CO_INVALID) {
+    init(node);
+    routes::publish(node);
   }
-  if (size != 1 || *static_cast<const uint8_t*>(buffer) > 1) {
-    return size != 1 ? CO_ERR_BAD_ARG : CO_ERR_OBJ_RANGE;
-  }
-  const CO_ERR err = integer::Number<1>::write(obj, node, buffer, size);
-  if (err == CO_ERR_NONE && node->Nmt.Mode != CO_INVALID) {
-    init(*node);
-    routes::publish(*node);
-  }
-  return err;
 }
 
 }  // namespace
@@ -77,7 +66,7 @@ extern "C" {
 // Default callbacks.
 WEAK void COGfcReceived(CO_NODE*) {}
 
-const CO_OBJ_TYPE COTGfc = {gfc::size, dict::checked_by<rules::global_fail_safe>, gfc::read, gfc::write, nullptr};
+const CO_OBJ_TYPE COTGfc = parameter<1, rules::global_fail_safe, gfc::may_use, gfc::apply>;
 
 CO_ERR COGfcSend(CO_NODE* node) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);

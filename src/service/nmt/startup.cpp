@@ -3,8 +3,7 @@
 #include "co_nmt.h"
 
 #include "base/events.hpp"
-#include "dictionary/dict.hpp"
-#include "dictionary/types/integer.hpp"
+#include "dictionary/parameter.hpp"
 #include "service/nmt/nmt.hpp"
 
 namespace co::nmt {
@@ -34,27 +33,11 @@ namespace {
 
 using namespace co;
 
-uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return integer::Number<4>::size(obj, node, width); }
-
-CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  return integer::Number<4>::read(obj, node, buffer, size);
-}
-
 // Refuses a change of any bit except CO_NMT_STARTUP_STAY: the others belong to an NMT master.
-CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  uint32_t before = 0;
-  const CO_ERR err = read(obj, node, &before, size);
-  if (err != CO_ERR_NONE) {
-    return err;
-  }
-  uint32_t value = 0;
-  __builtin_memcpy(&value, buffer, sizeof value);
-  if (((value ^ before) & ~uint32_t{CO_NMT_STARTUP_STAY}) != 0) {
-    return CO_ERR_OBJ_RANGE;
-  }
-  return integer::Number<4>::write(obj, node, buffer, size);
+CO_ERR may_replace(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {
+  return ((value ^ before) & ~uint32_t{CO_NMT_STARTUP_STAY}) != 0 ? CO_ERR_OBJ_RANGE : CO_ERR_NONE;
 }
 
 }  // namespace
 
-extern "C" const CO_OBJ_TYPE COTNmtStartup = {size, dict::checked_by<rules::nmt_startup>, read, write, nullptr};
+extern "C" const CO_OBJ_TYPE COTNmtStartup = parameter<4, rules::nmt_startup, may_replace>;

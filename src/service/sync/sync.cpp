@@ -21,6 +21,7 @@ using event::Fault;
 constexpr uint32_t microseconds = 1000000;
 constexpr uint16_t id_index = 0x1005;
 constexpr uint16_t cycle_index = 0x1006;
+constexpr uint16_t window_index = 0x1007;
 constexpr uint8_t lowest_overflow = 2;
 constexpr uint8_t highest_overflow = 240;
 constexpr uint32_t producer = CO_SYNC_COBID_ON;
@@ -35,6 +36,11 @@ void end_window(void* node_pointer) { event::end_sync_window(*static_cast<CO_NOD
 void open_window(CO_NODE& node) {
   tmr::stop(node, node.Sync.WindowTmr);
   node.WindowOver = 0;
+}
+
+void set_window(CO_NODE& node, uint32_t time) {
+  node.Sync.Window = ticks(node, time);
+  open_window(node);
 }
 
 void process(CO_NODE& node, uint8_t counter) {
@@ -113,51 +119,37 @@ void apply_id(CO_NODE& node, CO_OBJ&, uint32_t value, uint32_t before) {
   }
 }
 
-// Writes 1006h (communication cycle period) or 1007h (synchronous window length), in µs.
-CO_ERR write_cycle(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (size != sizeof(uint32_t)) {
-    return CO_ERR_BAD_ARG;
-  }
-  const uint32_t value = integer::get_u32(buffer);
-  const bool is_cycle = CO_GET_IDX(obj->Key) == cycle_index;
-  if (is_cycle && is_too_short(value)) {
-    return CO_ERR_OBJ_RANGE_LOW;
-  }
-  const uint32_t time = ticks(*node, value);
-  if (value != 0 && time == 0) {
-    return CO_ERR_OBJ_RANGE;
-  }
-  const CO_ERR err = integer::Number<4>::write(obj, node, buffer, size);
-  if (err != CO_ERR_NONE) {
-    return err;
-  }
-  if (is_cycle) {
-    run_producer(*node);
-  } else {
-    node->Sync.Window = time;
-    open_window(*node);
-  }
-  return CO_ERR_NONE;
+bool is_window(const CO_OBJ& obj) { return (obj.Key & CO_DEV(cycle_index ^ window_index, 0)) != 0; }
+
+// Check and apply 1006h (communication cycle period) or 1007h (synchronous window length), in µs.
+
+CO_ERR fits_cycle(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before) {
+  return !is_window(obj) && is_too_short(value) ? CO_ERR_OBJ_RANGE_LOW
+                                                : fits_timer<microseconds>(node, obj, value, before);
 }
 
-// Writes 1019h. Its value can change only while the cycle period is 0. [301:7.5.2.22]
-CO_ERR write_counter(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (size != sizeof(uint8_t)) {
-    return CO_ERR_BAD_ARG;
+void apply_cycle(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t) {
+  if (is_window(obj)) {
+    set_window(node, value);
+  } else {
+    run_producer(node);
   }
-  const uint8_t value = *static_cast<const uint8_t*>(buffer);
+}
+
+// Check and apply 1019h. Its value can change only while the cycle period is 0. [301:7.5.2.22]
+
+CO_ERR may_count(CO_NODE& node, CO_OBJ&, uint32_t value, uint32_t) {
   if (value != 0 && (value < lowest_overflow || value > highest_overflow)) {
     return CO_ERR_OBJ_RANGE;
   }
-  if (value != node->Sync.Overflow && read(*node, cycle_index) != 0) {
-    return CO_ERR_OBJ_STATE;
+  return value != node.Sync.Overflow && read(node, cycle_index) != 0 ? CO_ERR_OBJ_STATE : CO_ERR_NONE;
+}
+
+void apply_counter(CO_NODE& node, CO_OBJ&, uint32_t value, uint32_t) {
+  if (value != node.Sync.Overflow) {
+    node.Sync.Overflow = static_cast<uint8_t>(value);
+    node.Sync.Counter = 0;
   }
-  const CO_ERR err = integer::Number<1>::write(obj, node, buffer, size);
-  if (err == CO_ERR_NONE && value != node->Sync.Overflow) {
-    node->Sync.Overflow = value;
-    node->Sync.Counter = 0;
-  }
-  return err;
 }
 
 }  // namespace
@@ -166,9 +158,8 @@ void init(CO_NODE& node) {
   CO_SYNC& sync = node.Sync;
   sync.Counter = 0;
   sync.Wrong = 0;
-  sync.Window = ticks(node, read(node, 0x1007));
   sync.Overflow = static_cast<uint8_t>(dict::read_number(node, CO_DEV(0x1019, 0), sizeof sync.Overflow, 0));
-  open_window(node);
+  set_window(node, read(node, window_index));
   configure(node);
   if (sync.Produces != 0 && is_too_short(read(node, cycle_index))) {
     error::report(node, CO_ERR_OBJ_RANGE_LOW, CO_DEV(cycle_index, 0));
@@ -203,10 +194,9 @@ extern "C" {
 
 const CO_OBJ_TYPE COTSyncId =
     co::parameter<co::integer::cob_id, co::rules::sync_cob_id, co::sync::may_replace, co::sync::apply_id>;
-const CO_OBJ_TYPE COTSyncCycle = {co::integer::Number<4>::size, co::dict::checked_by<co::rules::sync_cycle>,
-                                  co::integer::Number<4>::read, co::sync::write_cycle, nullptr};
-const CO_OBJ_TYPE COTSyncCount = {co::integer::Number<1>::size, co::dict::checked_by<co::rules::sync_counter>,
-                                  co::integer::Number<1>::read, co::sync::write_counter, nullptr};
+const CO_OBJ_TYPE COTSyncCycle = co::parameter<4, co::rules::sync_cycle, co::sync::fits_cycle, co::sync::apply_cycle>;
+const CO_OBJ_TYPE COTSyncCount =
+    co::parameter<1, co::rules::sync_counter, co::sync::may_count, co::sync::apply_counter>;
 
 }  // extern "C"
 
