@@ -40,16 +40,6 @@ void configure(CO_NODE& node, const CO_OBJ& obj) {
   }
 }
 
-using Byte = integer::Number<1>;
-using Half = integer::Number<2>;
-using Word = integer::Number<4>;
-
-// Reads the value before a write. Returns false if it has another length or cannot be read.
-template <class T>
-bool read_before(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& number, uint32_t size, T& before) {
-  return size == sizeof before && number.Read(&obj, &node, &before, size) == CO_ERR_NONE;
-}
-
 // Sub 1 --------------------------------------------------------------------------------------------------------------
 
 // Not inlined, so that its map is not on the CPU's stack while the PDO is configured.
@@ -86,92 +76,54 @@ bool fits_mapping(CO_NODE& node, const CO_OBJ& obj, uint8_t type) {
   return pdo::is_event_driven(type) || !mpdo::is_selected(node, communication_of(obj)) || !exists(node, obj);
 }
 
-CO_ERR write_type(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  uint8_t before = 0;
-  if (!read_before(*obj, *node, COTInt8, size, before)) {
-    return CO_ERR_BAD_ARG;
-  }
-  const auto value = *static_cast<const uint8_t*>(buffer);
-  if (!pdo::is_type(direction_of(*obj), value) || !fits_mapping(*node, *obj, value)) {
-    return CO_ERR_OBJ_RANGE;
-  }
-  const CO_ERR err = integer::Number<1>::write(obj, node, buffer, size);
-  if (err == CO_ERR_NONE && value != before) {
-    configure(*node, *obj);
-  }
-  return err;
+CO_ERR may_have_type(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t) {
+  const auto type = static_cast<uint8_t>(value);
+  return pdo::is_type(direction_of(obj), type) && fits_mapping(node, obj, type) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
 
 // Sub 3 and 6 --------------------------------------------------------------------------------------------------------
 
-// Writes the inhibit time or the SYNC start value, which cannot be changed while the PDO exists.
-template <class T, const CO_OBJ_TYPE& number, T highest>
-CO_ERR write_fixed(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  T before = 0;
-  if (!read_before(*obj, *node, number, size, before)) {
-    return CO_ERR_BAD_ARG;
-  }
-  const T value = size == 1 ? *static_cast<const uint8_t*>(buffer) : static_cast<T>(integer::get_u16(buffer));
-  const bool changes = value != before && exists(*node, *obj);
-  return changes || value > highest ? CO_ERR_OBJ_RANGE : number.Write(obj, node, buffer, size);
+// Checks the inhibit time, or the SYNC start value, which cannot be changed while the PDO exists.
+template <uint32_t highest>
+CO_ERR may_change(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before) {
+  const bool changes = value != before && exists(node, obj);
+  return changes || value > highest ? CO_ERR_OBJ_RANGE : CO_ERR_NONE;
 }
 
 // Sub 5 --------------------------------------------------------------------------------------------------------------
 
-CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (size != sizeof(uint16_t)) {
-    return CO_ERR_BAD_ARG;
+void apply_event(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t) {
+  if (is_configured(obj)) {
+    const auto change = is_tpdo(obj) ? pdo::change_event_time : pdo::change_deadline;
+    change(node, number_of(obj), pdo::ticks(node, value, CO_TMR_UNIT_1MS));
   }
-  const auto value = integer::get_u16(buffer);
-  const uint32_t ticks = pdo::ticks(*node, value, CO_TMR_UNIT_1MS);
-  if (value != 0 && ticks == 0) {
-    return CO_ERR_OBJ_RANGE;
-  }
-  const CO_ERR err = integer::Number<2>::write(obj, node, buffer, size);
-  if (err != CO_ERR_NONE || !is_configured(*obj)) {
-    return err;
-  }
-  if (is_tpdo(*obj)) {
-    pdo::change_event_time(*node, number_of(*obj), ticks);
-  } else {
-    pdo::change_deadline(*node, number_of(*obj), ticks);
-  }
-  return CO_ERR_NONE;
 }
 
 // Mapping ------------------------------------------------------------------------------------------------------------
 
-// Writes the number of mapped objects. If the mapping cannot be resolved, the write is refused and the number becomes
+// Checks the number of mapped objects. If the mapping cannot be resolved, the write is refused and the number becomes
 // 0. Writing the present number does not require flag P of the objects, because the mapping may be the designer's.
-CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  uint8_t before = 0;
-  if (!read_before(*obj, *node, COTInt8, size, before)) {
-    return CO_ERR_BAD_ARG;
-  }
-  if (exists(*node, *obj)) {
+CO_ERR may_map(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before) {
+  if (exists(node, obj)) {
     return CO_ERR_OBJ_ACC;
   }
   CO_PDO_MAP map;
-  const auto value = *static_cast<const uint8_t*>(buffer);
   const MappedBy author = value == before ? MappedBy::designer : MappedBy::network;
-  const CO_ERR err = pdo::resolve(*node, CO_GET_IDX(obj->Key), value, map, author).err;
-  uint8_t none = 0;
-  const CO_ERR stored = integer::Number<1>::write(obj, node, err == CO_ERR_NONE ? buffer : &none, size);
-  return err != CO_ERR_NONE ? err : stored;
+  const CO_ERR err = pdo::resolve(node, CO_GET_IDX(obj.Key), value, map, author).err;
+  if (err != CO_ERR_NONE) {
+    uint8_t none = 0;
+    (void)integer::Number<1>::write(&obj, &node, &none, sizeof none);
+  }
+  return err;
 }
 
-CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (size != sizeof(uint32_t)) {
-    return CO_ERR_BAD_ARG;
-  }
+CO_ERR may_be_mapped(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t) {
   constexpr uint8_t unknown = 1;
-  const uint32_t num = pdo::read_number(*node, CO_DEV(CO_GET_IDX(obj->Key), 0), sizeof(uint8_t), unknown);
-  if (num != 0 || exists(*node, *obj)) {
+  const uint32_t num = pdo::read_number(node, CO_DEV(CO_GET_IDX(obj.Key), 0), sizeof(uint8_t), unknown);
+  if (num != 0 || exists(node, obj)) {
     return CO_ERR_OBJ_ACC;
   }
-  const auto value = integer::get_u32(buffer);
-  const CO_ERR err = value == 0 ? CO_ERR_NONE : pdo::check(*node, direction_of(*obj), value, MappedBy::network);
-  return err == CO_ERR_NONE ? integer::Number<4>::write(obj, node, buffer, size) : err;
+  return value == 0 ? CO_ERR_NONE : pdo::check(node, direction_of(obj), value, MappedBy::network);
 }
 
 }  // namespace
@@ -179,13 +131,11 @@ CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 extern "C" {
 
 const CO_OBJ_TYPE COTPdoId = parameter<integer::cob_id, rules::pdo_cob_id, may_have_id, apply>;
-const CO_OBJ_TYPE COTPdoType = {Byte::size, dict::checked_by<rules::pdo_type>, Byte::read, write_type, nullptr};
-const CO_OBJ_TYPE COTPdoInhibit = {Half::size, dict::checked_by<rules::pdo_inhibit>, Half::read,
-                                   write_fixed<uint16_t, COTInt16, UINT16_MAX>, nullptr};
-const CO_OBJ_TYPE COTPdoEvent = {Half::size, dict::checked_by<rules::pdo_event>, Half::read, write_event, nullptr};
-const CO_OBJ_TYPE COTPdoStart = {Byte::size, dict::checked_by<rules::pdo_start>, Byte::read,
-                                 write_fixed<uint8_t, COTInt8, pdo::last_synchronous_type>, nullptr};
-const CO_OBJ_TYPE COTPdoNum = {Byte::size, dict::checked_by<rules::pdo_number>, Byte::read, write_number, nullptr};
-const CO_OBJ_TYPE COTPdoMap = {Word::size, dict::checked_by<rules::pdo_mapping>, Word::read, write_mapping, nullptr};
+const CO_OBJ_TYPE COTPdoType = parameter<1, rules::pdo_type, may_have_type, apply>;
+const CO_OBJ_TYPE COTPdoInhibit = parameter<2, rules::pdo_inhibit, may_change<UINT16_MAX>>;
+const CO_OBJ_TYPE COTPdoEvent = parameter<2, rules::pdo_event, fits_timer<CO_TMR_UNIT_1MS>, apply_event>;
+const CO_OBJ_TYPE COTPdoStart = parameter<1, rules::pdo_start, may_change<pdo::last_synchronous_type>>;
+const CO_OBJ_TYPE COTPdoNum = parameter<1, rules::pdo_number, may_map>;
+const CO_OBJ_TYPE COTPdoMap = parameter<4, rules::pdo_mapping, may_be_mapped>;
 
 }  // extern "C"
