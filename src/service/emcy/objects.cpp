@@ -15,9 +15,11 @@ constexpr uint32_t reserved = 1U << 30;
 
 // Checks a COB-ID. A restricted CAN-ID is refused in a COB-ID that is not valid, too. [P5]
 CO_ERR may_replace(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {
-  const bool is_usable = cob_id::is_free(value) && (value & reserved) == 0;
-  return value == before || (is_usable && !(wire::is_valid(before) && wire::is_valid(value))) ? CO_ERR_NONE
-                                                                                              : CO_ERR_OBJ_RANGE;
+  if (value == before) {
+    return CO_ERR_NONE;
+  }
+  const bool is_change = wire::is_valid(before) && wire::is_valid(value);
+  return is_change || (value & reserved) != 0 || !cob_id::is_free(value) ? CO_ERR_OBJ_RANGE : CO_ERR_NONE;
 }
 
 // Drops the messages that wait with the identifier before, if there is no new one.

@@ -57,9 +57,11 @@ bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
 }
 
 CO_ERR may_have_id(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before) {
+  if (!may_replace(obj, before, value)) {
+    return CO_ERR_OBJ_RANGE;
+  }
   const bool is_new = !wire::is_valid(before) && wire::is_valid(value);
-  const bool is_possible = may_replace(obj, before, value) && (!is_new || can_exist(node, obj));
-  return is_possible ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
+  return is_new && !can_exist(node, obj) ? CO_ERR_OBJ_RANGE : CO_ERR_NONE;
 }
 
 // Configures the PDO if its COB-ID or its transmission type has changed.

@@ -5,29 +5,26 @@
 #include "base/events.hpp"
 #include "co_core.h"
 #include "dictionary/parameter.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "wire/cob_id.hpp"
 
 namespace {
 
 using namespace co;
 
-// Returns whether a CAN-ID is allowed. A client may use the CAN-IDs of another node's default SDO server.
-bool may_use(const CO_OBJ& obj, uint32_t id) {
+// Returns whether a valid COB-ID is allowed. A client may use the CAN-IDs of another node's default SDO server.
+bool may_use(const CO_OBJ& obj, uint32_t cob_id) {
   constexpr uint16_t first_client = 0x1280;
-  const bool of_client = CO_GET_IDX(obj.Key) >= first_client;
+  const uint32_t id = cob_id & wire::extended_ids;
   const bool of_server = CO_GET_SUB(obj.Key) == 1 ? wire::is_default_sdo_rx(id) : wire::is_default_sdo_tx(id);
-  return id != 0 && (CO_RESTRICTED_IDS != 0 || !wire::is_restricted(id) || (of_client && of_server));
-}
-
-bool is_allowed(const CO_OBJ& obj, uint32_t value, uint32_t before) {
-  if (!wire::is_valid(value) || value == before) {
-    return true;
-  }
-  return !wire::is_valid(before) && wire::fits_format(value) && may_use(obj, value & wire::extended_ids);
+  return cob_id::is_free(cob_id) || (of_server && CO_GET_IDX(obj.Key) >= first_client);
 }
 
 CO_ERR may_replace(CO_NODE&, CO_OBJ& obj, uint32_t value, uint32_t before) {
-  return is_allowed(obj, value, before) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
+  if (!wire::is_valid(value) || value == before) {
+    return CO_ERR_NONE;
+  }
+  return wire::is_valid(before) || !may_use(obj, value) ? CO_ERR_OBJ_RANGE : CO_ERR_NONE;
 }
 
 void configure(CO_NODE& node, CO_OBJ&, uint32_t, uint32_t) { event::defer(node, event::configure); }
