@@ -5,6 +5,9 @@
 #include "wire/cob_id.hpp"
 
 namespace co::cob_id {
+
+uint32_t identifier(uint32_t cob_id) { return wire::is_usable(cob_id) ? wire::frame_id(cob_id) : wire::no_frame; }
+
 bool is_free(uint32_t cob_id) {
   const uint32_t id = cob_id & wire::extended_ids;
   const bool restricted = CO_RESTRICTED_IDS == 0 && wire::is_restricted(id);

@@ -6,6 +6,9 @@
 
 namespace co::cob_id {
 
+// Returns the identifier of frames with this COB-ID, wire::no_frame if there can be none (wire::is_usable()).
+[[nodiscard]] uint32_t identifier(uint32_t cob_id);
+
 // Returns whether a configurable object may have this CAN-ID, in the frame format that bit 29 selects. [301:7.3.5]
 [[nodiscard]] bool is_free(uint32_t cob_id);
 

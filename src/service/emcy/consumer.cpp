@@ -18,9 +18,8 @@ constexpr uint32_t key(uint8_t node_id) { return CO_DEV(0x1028, node_id); }
 
 // Adds or changes the route of a producer to the COB-ID in 1028h; removes it if that is not valid.
 void update_route(CO_NODE& node, uint8_t node_id) {
-  const uint32_t cob_id = dict::read_cob_id(node, key(node_id), wire::cob_invalid);
-  const uint32_t identifier = cob_id == wire::cob_invalid ? wire::no_frame : wire::frame_id(cob_id);
-  routes::change(node, identifier, routes::Service::emcy_consumer, node_id);
+  const uint32_t cob_id = dict::read_number(node, key(node_id), sizeof cob_id, wire::cob_invalid);
+  routes::change(node, cob_id::identifier(cob_id), routes::Service::emcy_consumer, node_id);
 }
 
 CO_ERR may_replace(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {

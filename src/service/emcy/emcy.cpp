@@ -8,6 +8,7 @@
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/emcy.hpp"
 
@@ -300,8 +301,7 @@ void send_queued(CO_NODE& node) {
 }
 
 uint32_t identifier(CO_NODE& node) {
-  const uint32_t cob_id = dict::read_cob_id(node, key_cob_id, wire::cob_invalid);
-  return cob_id != wire::cob_invalid ? wire::frame_id(cob_id) : wire::no_frame;
+  return cob_id::identifier(dict::read_number(node, key_cob_id, sizeof(uint32_t), wire::cob_invalid));
 }
 
 }  // namespace co::emcy

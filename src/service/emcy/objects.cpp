@@ -24,8 +24,8 @@ CO_ERR may_replace(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {
 
 // Drops the messages that wait with the identifier before, if there is no new one.
 void apply(CO_NODE& node, CO_OBJ&, uint32_t value, uint32_t before) {
-  if (!wire::is_valid(value) && wire::is_usable(before)) {
-    withdraw(node, wire::frame_id(before));
+  if (!wire::is_valid(value)) {
+    withdraw(node, cob_id::identifier(before));
   }
 }
 

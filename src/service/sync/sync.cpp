@@ -96,9 +96,8 @@ void check_length(CO_NODE& node, bool right) {
 void configure(CO_NODE& node) {
   CO_SYNC& sync = node.Sync;
   const uint32_t cob_id = read(node, id_index) & ~wire::cob_invalid;
-  const bool usable = wire::is_usable(cob_id);
-  sync.Identifier = usable ? wire::frame_id(cob_id) : wire::no_frame;
-  sync.Produces = usable && (cob_id & producer) != 0 ? 1 : 0;
+  sync.Identifier = cob_id::identifier(cob_id);
+  sync.Produces = sync.Identifier != wire::no_frame && (cob_id & producer) != 0 ? 1 : 0;
   routes::change(node, sync.Identifier, routes::Service::sync, 0);
   run_producer(node);
 }

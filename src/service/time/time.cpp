@@ -7,6 +7,7 @@
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 #include "wire/time.hpp"
@@ -51,11 +52,8 @@ void run_producer(CO_NODE& node) {
 
 // Bit 31 of 1012h selects the consumer (CO_TIME_COBID_CONSUME); it does not mean that the COB-ID is not valid.
 void init(CO_NODE& node) {
-  uint32_t cob_id = dict::read_number(node, CO_DEV(0x1012, 0), sizeof cob_id, 0);
-  if (!wire::is_usable(cob_id & ~CO_TIME_COBID_CONSUME)) {
-    cob_id = 0;
-  }
-  const uint32_t identifier = wire::frame_id(cob_id);
+  const uint32_t cob_id = dict::read_number(node, CO_DEV(0x1012, 0), sizeof cob_id, 0);
+  const uint32_t identifier = cob_id::identifier(cob_id & ~CO_TIME_COBID_CONSUME);
   const bool consumes = (cob_id & CO_TIME_COBID_CONSUME) != 0;
   flush(node);
   node.Time.Identifier = (cob_id & CO_TIME_COBID_PRODUCE) != 0 ? identifier : wire::no_frame;
