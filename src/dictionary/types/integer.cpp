@@ -92,7 +92,6 @@ using Real32 = Number<4>;
 
 }  // namespace
 
-uint16_t get_u16(const void* from) { return static_cast<uint16_t>(load<uint32_t>(from, sizeof(uint16_t))); }
 uint32_t get_u32(const void* from) { return load<uint32_t>(from, sizeof(uint32_t)); }
 void put_u32(void* to, uint32_t value) { store(to, value, sizeof value); }
 

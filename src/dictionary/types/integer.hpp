@@ -8,7 +8,6 @@
 
 namespace co::integer {
 
-[[nodiscard]] uint16_t get_u16(const void* from);
 [[nodiscard]] uint32_t get_u32(const void* from);
 void put_u32(void* to, uint32_t value);
 

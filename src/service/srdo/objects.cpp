@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1301h…1340h, 1381h…13C0h, 13FEh, 13FFh: configuration of SRDOs. [EN 50325-5]
-#include "dictionary/dict.hpp"
+#include "dictionary/parameter.hpp"
 #include "service/srdo/configuration.hpp"
 
 #if CO_SRDO_N > 0
@@ -15,7 +15,7 @@ constexpr unsigned mapping_of(unsigned number) { return srdo::first_mapping + nu
 unsigned number_of(const CO_OBJ& obj) { return CO_GET_IDX(obj.Key) - srdo::first_communication; }
 unsigned number_of_mapping(const CO_OBJ& obj) { return CO_GET_IDX(obj.Key) - srdo::first_mapping; }
 
-// Return the types of the numbers of 1301h…, and of 1381h….
+// Return the type of the number in an entry of 1301h…, and of 1381h….
 const CO_OBJ_TYPE& communication_type(const CO_OBJ& obj) {
   switch (CO_GET_SUB(obj.Key)) {
     case 2: return COTInt16;
@@ -25,8 +25,6 @@ const CO_OBJ_TYPE& communication_type(const CO_OBJ& obj) {
   }
 }
 const CO_OBJ_TYPE& mapping_type(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) == 0 ? COTInt8 : COTInt32; }
-const CO_OBJ_TYPE& valid_type(const CO_OBJ&) { return COTInt8; }
-const CO_OBJ_TYPE& signature_type(const CO_OBJ&) { return COTInt16; }
 
 using TypeOf = const CO_OBJ_TYPE& (*)(const CO_OBJ& obj);
 
@@ -40,68 +38,42 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return type_of(*obj).Read(obj, node, buffer, size);
 }
 
-// Function that returns whether a value may be written.
-using Check = CO_ERR (*)(CO_NODE& node, const CO_OBJ& obj, uint32_t value);
-
-uint32_t value_in(const void* buffer, uint32_t size) {
-  if (size == sizeof(uint32_t)) {
-    uint32_t value = 0;
-    __builtin_memcpy(&value, buffer, sizeof value);
-    return value;
-  }
-  if (size == sizeof(uint16_t)) {
-    uint16_t value = 0;
-    __builtin_memcpy(&value, buffer, sizeof value);
-    return value;
-  }
-  return *static_cast<const uint8_t*>(buffer);
+template <TypeOf type_of, const integer::Parameter& parameter>
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return integer::write(obj, node, buffer, size, type_of(*obj).Size(obj, node, size), &parameter);
 }
 
-// Writes an object outside of Operational.
-template <TypeOf type_of, Check check>
-CO_ERR write_unverified(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (srdo::is_operational(*node)) {
+// The configuration can be changed outside of Operational, and is not valid any more then.
+CO_ERR may_change(CO_NODE& node, CO_OBJ&, uint32_t, uint32_t) {
+  return srdo::is_operational(node) ? CO_ERR_OBJ_STATE : CO_ERR_NONE;
+}
+void invalidate(CO_NODE& node, CO_OBJ&, uint32_t, uint32_t) { srdo::invalidate(node); }
+
+CO_ERR may_communicate(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t) {
+  if (srdo::is_operational(node)) {
     return CO_ERR_OBJ_STATE;
   }
-  const CO_OBJ_TYPE& type = type_of(*obj);
-  if (size != type.Size(obj, node, size)) {
-    return CO_ERR_BAD_ARG;
-  }
-  const CO_ERR err = check(*node, *obj, value_in(buffer, size));
-  return err != CO_ERR_NONE ? err : type.Write(obj, node, buffer, size);
-}
-
-// Writes an object of the configuration, which is then not valid any more.
-template <TypeOf type_of, Check check>
-CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const CO_ERR err = write_unverified<type_of, check>(obj, node, buffer, size);
-  if (err == CO_ERR_NONE) {
-    srdo::invalidate(*node);
-  }
-  return err;
-}
-
-CO_ERR accept(CO_NODE&, const CO_OBJ&, uint32_t) { return CO_ERR_NONE; }
-
-CO_ERR check_parameter(CO_NODE&, const CO_OBJ& obj, uint32_t value) {
   return srdo::is_parameter(CO_GET_SUB(obj.Key), value) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
 
-CO_ERR write_communication(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const CO_ERR err = write<communication_type, check_parameter>(obj, node, buffer, size);
-  if (err == CO_ERR_NONE && CO_GET_SUB(obj->Key) == 1 && node->Nmt.Mode != CO_INVALID &&
-      dict::is_number(number_of(*obj), CO_SRDO_N)) {
-    srdo::change_direction(*node, number_of(*obj));
+void apply_communication(CO_NODE& node, CO_OBJ& obj, uint32_t, uint32_t) {
+  srdo::invalidate(node);
+  if (CO_GET_SUB(obj.Key) == 1 && node.Nmt.Mode != CO_INVALID && dict::is_number(number_of(obj), CO_SRDO_N)) {
+    srdo::change_direction(node, number_of(obj));
   }
-  return err;
 }
 
-CO_ERR check_number(CO_NODE&, const CO_OBJ&, uint32_t value) {
+constexpr integer::Parameter communication = {may_communicate, apply_communication};
+
+CO_ERR check_number(uint32_t value) {
   return value % 2 == 0 && value <= CO_SRDO_MAP_N ? CO_ERR_NONE : CO_ERR_OBJ_MAP_LEN;
 }
 
 // A mapping can be changed while the SRDO does not exist, and its entries while their number is 0.
-CO_ERR check_mapping(CO_NODE& node, const CO_OBJ& obj, uint32_t value) {
+CO_ERR may_map(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t) {
+  if (srdo::is_operational(node)) {
+    return CO_ERR_OBJ_STATE;
+  }
   const unsigned number = number_of_mapping(obj);
   const bool is_number = CO_GET_SUB(obj.Key) == 0;
   const uint32_t mapped = dict::read_number(node, CO_DEV(mapping_of(number), 0), sizeof(uint8_t), 1);
@@ -109,10 +81,12 @@ CO_ERR check_mapping(CO_NODE& node, const CO_OBJ& obj, uint32_t value) {
     return CO_ERR_OBJ_ACC;
   }
   if (is_number) {
-    return check_number(node, obj, value);
+    return check_number(value);
   }
   return value == 0 ? CO_ERR_NONE : srdo::check_mapping(node, value, CO_OBJ____P__);
 }
+
+constexpr integer::Parameter mapping = {may_map, invalidate};
 
 // Returns an Init function, or null where checks are switched off (USE_DICT_CHECK).
 constexpr CO_OBJ_INIT_FUNC checking(CO_OBJ_INIT_FUNC init) { return USE_DICT_CHECK != 0 ? init : nullptr; }
@@ -141,13 +115,11 @@ CO_ERR init_mapping(CO_OBJ* obj, CO_NODE* node) {
 extern "C" {
 
 const CO_OBJ_TYPE COTSrdoCom = {size<communication_type>, checking(init_communication), read<communication_type>,
-                                write_communication, nullptr};
+                                write<communication_type, communication>, nullptr};
 const CO_OBJ_TYPE COTSrdoMap = {size<mapping_type>, checking(init_mapping), read<mapping_type>,
-                                write<mapping_type, check_mapping>, nullptr};
-const CO_OBJ_TYPE COTSrdoValid = {size<valid_type>, dict::checked_by<rules::srdo_valid>, read<valid_type>,
-                                  write_unverified<valid_type, accept>, nullptr};
-const CO_OBJ_TYPE COTSrdoSignature = {size<signature_type>, dict::checked_by<rules::srdo_signature>,
-                                      read<signature_type>, write<signature_type, accept>, nullptr};
+                                write<mapping_type, mapping>, nullptr};
+const CO_OBJ_TYPE COTSrdoValid = parameter<1, rules::srdo_valid, may_change>;
+const CO_OBJ_TYPE COTSrdoSignature = parameter<2, rules::srdo_signature, may_change, invalidate>;
 
 }  // extern "C"
 
