@@ -9,8 +9,8 @@
 
 namespace co::integer {
 
-// What distinguishes a parameter from other numbers of its format. value, before: the value that is written and the
-// present one, as the network sees them
+// Functions of a parameter. value: the one that is written; before: the one that it replaces; both as the network sees
+// them
 struct Parameter {
   // Returns the error of a value, CO_ERR_NONE if it may be written.
   CO_ERR (*may)(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before);
@@ -18,8 +18,8 @@ struct Parameter {
   void (*apply)(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before);
 };
 
-// Checks, stores and applies a value. parameter: null if every value may be written. The other arguments are those of
-// a type's Write function.
+// Checks, stores and applies a value. parameter: null if every value may be written. obj, node, buffer and size: those
+// of a type's Write function. Returns CO_ERR_BAD_ARG if size is another than that of the format.
 [[nodiscard]] CO_ERR write(CO_OBJ* obj, CO_NODE* node, const void* buffer, uint32_t size, unsigned format,
                            const Parameter* parameter);
 

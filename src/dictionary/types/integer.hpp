@@ -11,14 +11,14 @@ namespace co::integer {
 [[nodiscard]] uint32_t get_u32(const void* from);
 void put_u32(void* to, uint32_t value);
 
-// Format of a number that is not its width in bytes: COB-ID, UNSIGNED32 with flags above the CAN-ID. With flag N only
+// Format of a number: its width in bytes, or cob_id for an UNSIGNED32 that has flags above a CAN-ID. With flag N only
 // the CAN-ID is relative to the node-ID; any other number is relative as a whole.
 inline constexpr uint8_t cob_id = 12;
 
+// Returns the width of a format in bytes.
 constexpr unsigned bytes_of(unsigned format) { return format & 7U; }
 
 // Functions of a type with a value of 1, 2 or 4 bytes, in a variable of the same size: for the tables of other types.
-// format: width in bytes, or cob_id
 template <uint8_t format>
 struct Number {
   static uint32_t size(CO_OBJ* obj, CO_NODE_T* node, uint32_t width);
