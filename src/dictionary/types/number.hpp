@@ -120,8 +120,7 @@ inline CO_ERR set_value(CO_OBJ& obj, CO_NODE& node, void* address, T value, unsi
   if (!port::is_writable(node, address, storage)) {
     return CO_ERR_OBJ_ACC;
   }
-  const bool is_watched = CO_IS_ASYNC(obj.Key) != 0;
-  if (is_watched && load<T>(address, storage) == value) {
+  if (CO_IS_ASYNC(obj.Key) != 0 && load<T>(address, storage) == value) {
     return CO_ERR_NONE;
   }
   if (CO_IS_DIRECT(obj.Key) != 0) {
@@ -129,7 +128,7 @@ inline CO_ERR set_value(CO_OBJ& obj, CO_NODE& node, void* address, T value, unsi
   } else {
     store<T>(address, value, storage);
   }
-  if (is_watched) {
+  if (CO_IS_ASYNC(obj.Key) != 0) {
     event::change_object(node, obj);
   }
   return CO_ERR_NONE;
