@@ -22,8 +22,8 @@ namespace {
 }
 
 // Returns the number at the address of an entry's value, as the network sees it: with flag N the node-ID is added.
-inline uint32_t value_at(const void* address, const CO_OBJ& obj, const CO_NODE& node, unsigned format) {
-  const uint32_t stored = load<uint32_t>(address, bytes_of(format));
+inline uint32_t value_at(const void* address, unsigned bytes, const CO_OBJ& obj, const CO_NODE& node, unsigned format) {
+  const uint32_t stored = load<uint32_t>(address, bytes);
   return CO_IS_NODEID(obj.Key) != 0 ? shift(stored, node.NodeId, format) : stored;
 }
 
@@ -33,7 +33,7 @@ inline uint32_t value_at(const void* address, const CO_OBJ& obj, const CO_NODE& 
   if (address == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  store(buffer, value_at(address, obj, node, format), bytes);
+  store(buffer, value_at(address, bytes, obj, node, format), bytes);
   return CO_ERR_NONE;
 }
 
@@ -58,21 +58,24 @@ template struct Number<cob_id>;
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, const void* buffer, uint32_t size, unsigned format,
              const Parameter* parameter) {
+  if (size != bytes_of(format)) {
+    return CO_ERR_BAD_ARG;
+  }
   void* const address = address_of_value(*obj, size);
-  if (size != bytes_of(format) || address == nullptr) {
+  if (address == nullptr) {
     return CO_ERR_BAD_ARG;
   }
   uint32_t before = 0;
   const uint32_t value = load<uint32_t>(buffer, size);
+  CO_ERR err = CO_ERR_NONE;
   if (parameter != nullptr) {
-    before = value_at(address, *obj, *node, format);
-    const CO_ERR err = parameter->may(*node, *obj, value, before);
-    if (err != CO_ERR_NONE) {
-      return err;
-    }
+    before = value_at(address, size, *obj, *node, format);
+    err = parameter->may(*node, *obj, value, before);
   }
-  const uint32_t stored = CO_IS_NODEID(obj->Key) != 0 ? shift(value, 0U - node->NodeId, format) : value;
-  const CO_ERR err = set_value<uint32_t>(*obj, *node, address, stored, size);
+  if (err == CO_ERR_NONE) {
+    const uint32_t stored = CO_IS_NODEID(obj->Key) != 0 ? shift(value, 0U - node->NodeId, format) : value;
+    err = set_value<uint32_t>(*obj, *node, address, stored, size);
+  }
   if (err == CO_ERR_NONE && parameter != nullptr && parameter->apply != nullptr) {
     parameter->apply(*node, *obj, value, before);
   }
