@@ -4,6 +4,7 @@
 #include "co_assert.h"
 #include "co_core.h"
 #include "dictionary/obj.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "wire/bytes.hpp"
 #include "wire/cob_id.hpp"
 
@@ -119,7 +120,7 @@ CO_ERR read_u32(CO_NODE_T& node, uint32_t key, uint32_t& value) {
 
 uint32_t read_cob_id(CO_NODE& node, uint32_t key, uint32_t otherwise) {
   const uint32_t value = read_number(node, key, sizeof value, otherwise);
-  return wire::is_usable(value) ? value : wire::cob_invalid;
+  return cob_id::identifier(value) != wire::no_frame ? value : wire::cob_invalid;
 }
 
 CO_ERR write_u32(CO_NODE_T& node, uint32_t key, uint32_t value) {

@@ -3,6 +3,7 @@
 #include "base/routes.hpp"
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "service/sdo_client/transfer.hpp"
 #include "wire/cob_id.hpp"
 
@@ -37,8 +38,8 @@ Configuration read_configuration(CO_NODE& node, uint16_t number) {
   }
   const bool is_own = found.node_id == node.NodeId;
   if (!is_own) {
-    found.tx_id = wire::frame_id(tx + relative);
-    found.rx_id = wire::frame_id(rx + relative);
+    found.tx_id = cob_id::identifier(tx + relative);
+    found.rx_id = cob_id::identifier(rx + relative);
   }
   found.state = is_own && !has_own ? CO_CSDO_STATE_INVALID : CO_CSDO_STATE_IDLE;
   return found;
