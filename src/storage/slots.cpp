@@ -62,7 +62,7 @@ struct Region {
 };
 
 // Returns the CRC of the header and the identity of the record; the data are to be added.
-wire::Crc32 crc_of(const Header& header, const Record& record) {
+[[gnu::noinline]] wire::Crc32 crc_of(const Header& header, const Record& record) {
   wire::Crc32 crc;
   crc.add(reinterpret_cast<const uint8_t*>(&header), offsetof(Header, crc));
   crc.add(reinterpret_cast<const uint8_t*>(&record), sizeof record);
@@ -181,7 +181,7 @@ bool is_whole(const Slot& slot) { return slot.found == Found::data || slot.found
 
 // Returns whether the slot holds a valid record that is newer than that of the other slot. Generations may wrap around.
 bool is_newer(const Slot& slot, const Slot& other) {
-  return is_whole(slot) && (!is_whole(other) || slot.header.generation - other.header.generation <= INT32_MAX);
+  return is_whole(slot) && (!is_whole(other) || other.header.generation - slot.header.generation > INT32_MAX);
 }
 
 // Reads a slot again. Returns whether it still holds the same.
@@ -199,16 +199,16 @@ struct Slots {
       each.found = read_slot(region, start, each.header, nullptr);
       start += region.slot;
     }
-    const bool is_swapped = is_newer(slot[1], slot[0]);
-    newest = is_swapped ? &slot[1] : &slot[0];
-    other = is_swapped ? &slot[0] : &slot[1];
+    const bool is_first = is_newer(slot[0], slot[1]);
+    newest = is_first ? &slot[0] : &slot[1];
+    other = is_first ? &slot[1] : &slot[0];
   }
   Slots(const Slots&) = delete;
   Slots& operator=(const Slots&) = delete;
 
   Slot slot[2];
-  const Slot* newest;  // the newest valid one
-  const Slot* other;
+  const Slot* newest;  // the newest valid one; the second slot if none is valid
+  const Slot* other;   // the next store writes it
 };
 
 // Returns whether the other slot is damaged and was written after the newest valid one, so that its data are lost. A
@@ -297,9 +297,8 @@ bool write_slot(const Region& region, uint32_t start, Header& header, const uint
 // than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both. Reads both slots again
 // afterwards: if the remaining slot could not be read before, its record may be the newer one.
 CO_ERR write_record(const Region& region, const Slots& slots, const uint8_t* data) {
-  const bool has_record = is_whole(*slots.newest);
-  const uint32_t start = (has_record ? slots.other : slots.newest)->start;
-  const uint32_t generation = (has_record ? slots.newest : slots.other)->header.generation + 1;
+  const uint32_t start = slots.other->start;
+  const uint32_t generation = slots.newest->header.generation + 1;
   const Record& record = region.record;
   Header header = {magic, record.version, data == nullptr ? defaults : record.size, generation, 0};
   if (!write_slot(region, start, header, data)) {
