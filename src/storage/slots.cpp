@@ -190,9 +190,26 @@ bool is_newer(const Slot& slot, const Slot& other) {
   return read_slot(region, slot.start, header, &pass) == slot.found;
 }
 
+// Returns whether the record fits into the memory. Also requires that the erase size is a multiple of the program size.
+// The first condition limits all sizes to half the capacity, so that no later sum exceeds 32 bits.
+bool fits(const Region& region) {
+  const CO_NVM_SHAPE& shape = region.shape;
+  const uint32_t half = shape.Capacity / 2;
+  if (region.program > CO_STORE_BUFFER || shape.EraseSize % region.program != 0 || shape.EraseSize > half ||
+      region.record.size > half) {
+    return false;
+  }
+  const uint32_t start = region.record.start;
+  return region.slot <= half && start <= shape.Capacity - 2 * region.slot && start % region.unit == 0;
+}
+
 // Both slots of a record.
 struct Slots {
-  explicit Slots(const Region& region) {
+  // Returns false if the record does not fit into the memory.
+  [[nodiscard]] bool read_both(const Region& region) {
+    if (!fits(region)) {
+      return false;
+    }
     uint32_t start = region.record.start;
     for (Slot& each : slot) {
       each.start = start;
@@ -202,9 +219,8 @@ struct Slots {
     const bool is_first = is_newer(slot[0], slot[1]);
     newest = is_first ? &slot[0] : &slot[1];
     other = is_first ? &slot[1] : &slot[0];
+    return true;
   }
-  Slots(const Slots&) = delete;
-  Slots& operator=(const Slots&) = delete;
 
   Slot slot[2];
   const Slot* newest;  // the newest valid one; the second slot if none is valid
@@ -296,16 +312,15 @@ bool write_slot(const Region& region, uint32_t start, Header& header, const uint
 // Writes the slot that does not hold the newest valid record. data: null for the defaults. The generation is one higher
 // than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both. Reads both slots again
 // afterwards: if the remaining slot could not be read before, its record may be the newer one.
-CO_ERR write_record(const Region& region, const Slots& slots, const uint8_t* data) {
+CO_ERR write_record(const Region& region, Slots& slots, const uint8_t* data) {
   const uint32_t start = slots.other->start;
   const uint32_t generation = slots.newest->header.generation + 1;
   const Record& record = region.record;
   Header header = {magic, record.version, data == nullptr ? defaults : record.size, generation, 0};
-  if (!write_slot(region, start, header, data)) {
+  if (!write_slot(region, start, header, data) || !slots.read_both(region)) {
     return CO_ERR_IF_NVM_WRITE;
   }
-  const Slots after(region);
-  const Slot& newest = *after.newest;
+  const Slot& newest = *slots.newest;
   const bool is_loaded_next = newest.start == start && is_whole(newest) && newest.header.crc == header.crc &&
                               newest.header.generation == generation;
   if (!is_loaded_next) {
@@ -315,27 +330,14 @@ CO_ERR write_record(const Region& region, const Slots& slots, const uint8_t* dat
   return CO_ERR_NONE;
 }
 
-// Returns whether the record fits into the memory. Also requires that the erase size is a multiple of the program size.
-// The first condition limits all sizes to half the capacity, so that no later sum exceeds 32 bits.
-bool fits(const Region& region) {
-  const CO_NVM_SHAPE& shape = region.shape;
-  const uint32_t half = shape.Capacity / 2;
-  if (region.program > CO_STORE_BUFFER || shape.EraseSize % region.program != 0 || shape.EraseSize > half ||
-      region.record.size > half) {
-    return false;
-  }
-  const uint32_t start = region.record.start;
-  return region.slot <= half && start <= shape.Capacity - 2 * region.slot && start % region.unit == 0;
-}
-
 // Loads the newest valid slot, or the other one if the memory then returns other bytes.
 Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
   CO_ASSERT(size <= record.size);
   const Region region(node, record);
-  if (!fits(region)) {
+  Slots slots;
+  if (!slots.read_both(region)) {
     return {Found::no_place, false};
   }
-  const Slots slots(region);
   bool is_older = is_newest_damaged(slots);
   for (const Slot* slot = slots.newest; slot != nullptr; slot = slot == slots.newest ? slots.other : nullptr) {
     Pass copy = {to, size, false, false};
@@ -352,10 +354,10 @@ Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
 
 CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data, store::Cause cause) {
   const Region region(node, record);
-  if (!fits(region)) {
+  Slots slots;
+  if (!slots.read_both(region)) {
     return CO_ERR_PARA_STORE;
   }
-  const Slots slots(region);
   if (cause == store::Cause::change && slots.newest->found == Found::defaults) {
     return CO_ERR_NONE;
   }
