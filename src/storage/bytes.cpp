@@ -87,11 +87,11 @@ CO_ERR save_bytes(CO_NODE& node, const Record& record, const uint8_t* data, Caus
   return done ? CO_ERR_NONE : CO_ERR_IF_NVM_WRITE;
 }
 
-Loaded load_bytes(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
+Found load_bytes(CO_NODE& node, const Record& record, Target& target) {
   const Found found = port::nvm_exists(node) ? look_at_bytes(node, record) : Found::blank;
   const bool is_data = found == Found::data;
-  const bool failed = is_data && port::nvm_read(node, record.start, to, size) != size;
-  return {failed ? Found::lost : found, false};
+  const bool failed = is_data && port::nvm_read(node, record.start, target.to, target.size) != target.size;
+  return failed ? Found::lost : found;
 }
 
 }  // namespace

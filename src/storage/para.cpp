@@ -96,17 +96,17 @@ CO_ERR without_delay(CO_ERR err) { return CO_PARA_BUDGET > 0 && err == CO_ERR_OB
 [[gnu::noinline]] CO_ERR load_group(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   const Located located = locate(node, group);
   const bool is_read = located.err == CO_ERR_NONE && (has_record(group) || !port::nvm_has_shape(node));
-  const store::Loaded loaded =
-      is_read ? store::of(node).load(node, located.record, memory_of(group), size) : store::Loaded{Found::blank, false};
-  CO_ERR err = loaded.found == Found::data ? CO_ERR_NONE : use_defaults(node, group, size, loaded.found);
-  if (loaded.is_older) {
+  store::Target target = {memory_of(group), size, false};
+  const Found found = is_read ? store::of(node).load(node, located.record, target) : Found::blank;
+  CO_ERR err = found == Found::data ? CO_ERR_NONE : use_defaults(node, group, size, found);
+  if (target.is_older) {
     callback::recover_para(node, group);
   }
-  if (loaded.found == Found::lost) {
+  if (found == Found::lost) {
     callback::lose_para(node, group);
     err = CO_ERR_PARA_LOAD;
   }
-  if (loaded.found == Found::no_place) {
+  if (found == Found::no_place) {
     err = CO_ERR_PARA_STORE;
   }
   return located.err != CO_ERR_NONE ? located.err : err;

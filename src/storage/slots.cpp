@@ -13,7 +13,6 @@ namespace co::slots {
 namespace {
 
 using store::Found;
-using store::Loaded;
 using store::Record;
 
 constexpr uint32_t magic = 0x324E584C;     // "LXN2"
@@ -331,25 +330,26 @@ CO_ERR write_record(const Region& region, Slots& slots, const uint8_t* data) {
 }
 
 // Loads the newest valid slot, or the other one if the memory then returns other bytes.
-Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
-  CO_ASSERT(size <= record.size);
+Found load(CO_NODE& node, const Record& record, store::Target& target) {
+  CO_ASSERT(target.size <= record.size);
   const Region region(node, record);
   Slots slots;
   if (!slots.read_both(region)) {
-    return {Found::no_place, false};
+    return Found::no_place;
   }
-  bool is_older = is_newest_damaged(slots);
+  target.is_older = is_newest_damaged(slots);
   for (const Slot* slot = slots.newest; slot != nullptr; slot = slot == slots.newest ? slots.other : nullptr) {
-    Pass copy = {to, size, false, false};
+    Pass copy = {target.to, target.size, false, false};
     if (is_whole(*slot) && read_again(region, *slot, copy)) {
       remember(region, *slot);
-      return {slot->found, is_older};
+      return slot->found;
     }
-    is_older = true;
+    target.is_older = true;
   }
+  target.is_older = false;
   remember(region, *slots.newest);
   const bool is_blank = slots.newest->found == Found::blank && slots.other->found == Found::blank;
-  return {is_blank ? Found::blank : Found::lost, false};
+  return is_blank ? Found::blank : Found::lost;
 }
 
 CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data, store::Cause cause) {

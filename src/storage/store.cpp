@@ -9,7 +9,7 @@
 namespace co::store {
 namespace {
 
-Loaded load_nothing(CO_NODE&, const Record&, uint8_t*, uint32_t) { return {Found::blank, false}; }
+Found load_nothing(CO_NODE&, const Record&, Target&) { return Found::blank; }
 
 CO_ERR refuse(CO_NODE&, const Record&, const uint8_t*, Cause) { return CO_ERR_IF_NVM_WRITE; }
 

@@ -24,9 +24,11 @@ enum class Found : uint8_t {
   no_place,  // the record does not fit the memory
 };
 
-struct Loaded {
-  Found found;
-  bool is_older;  // the newest record is damaged, the one before it was loaded
+// Memory of the application that a record is loaded to.
+struct Target {
+  uint8_t* to;
+  uint32_t size;  // bytes to load: the first ones of the record
+  bool is_older;  // result: the newest record is damaged, the one before it was loaded
 };
 
 // Returns the bytes of memory that a record occupies; 0: there is no memory.
@@ -42,10 +44,9 @@ enum class Cause : uint8_t {
 
 // Functions for the records of a kind of memory: atomic slots, or bytes without header.
 struct CO_STORE_T {
-  // Copies the first size bytes of the stored data, if there are any, to the memory of the application. The CRC of an
-  // atomic record is checked before; invalid data are copied only if the memory returns other bytes when it is read
-  // again.
-  co::store::Loaded (*load)(CO_NODE& node, const co::store::Record& record, uint8_t* to, uint32_t size);
+  // Copies the first bytes of the stored data, if there are any, to the memory of the application. The CRC of an atomic
+  // record is checked before; invalid data are copied only if the memory returns other bytes when it is read again.
+  co::store::Found (*load)(CO_NODE& node, const co::store::Record& record, co::store::Target& target);
 
   // Stores data, unless they are stored already. Null data: stores the request to use the default values. Returns
   // CO_ERR_PARA_STORE if the record does not fit into the memory, CO_ERR_IF_NVM_WRITE if the memory does not hold the

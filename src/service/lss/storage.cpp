@@ -30,8 +30,8 @@ CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nod
   ASSERT_PTR_ERR(nodeId, CO_ERR_BAD_ARG);
   Stored stored = {};
   // Resets that other threads have requested during the memory access are deferred: event::run_deferred() runs them.
-  const store::Found found =
-      store::of(*node).load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored), sizeof stored).found;
+  store::Target target = {reinterpret_cast<uint8_t*>(&stored), sizeof stored, false};
+  const store::Found found = store::of(*node).load(*node, record_at(offset), target);
   event::run_deferred(*node);
   if (found == store::Found::data) {
     *baud = stored.baud;
