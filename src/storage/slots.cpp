@@ -338,13 +338,15 @@ Found load(CO_NODE& node, const Record& record, store::Target& target) {
     return Found::no_place;
   }
   target.is_older = is_newest_damaged(slots);
-  for (const Slot* slot = slots.newest; slot != nullptr; slot = slot == slots.newest ? slots.other : nullptr) {
+  const Slot* slot = slots.newest;
+  for (unsigned n = 0; n < 2; ++n) {
     Pass copy = {target.to, target.size, false, false};
     if (is_whole(*slot) && read_again(region, *slot, copy)) {
       remember(region, *slot);
       return slot->found;
     }
     target.is_older = true;
+    slot = slots.other;
   }
   target.is_older = false;
   remember(region, *slots.newest);
