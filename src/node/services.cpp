@@ -101,7 +101,7 @@ constexpr Service table[] = {
 
     without_frames(CO_NMT_ALLOWED, nullptr, heartbeat::on_mode),
 #if USE_PARA
-    without_frames(CO_NMT_ALLOWED, para::init, para::on_mode),
+    without_frames(CO_NMT_ALLOWED, nullptr, para::on_mode),
 #endif
 #if USE_EMCY
     without_frames(CO_EMCY_ALLOWED, emcy::init, emcy::on_mode),

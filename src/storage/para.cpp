@@ -122,13 +122,14 @@ bool has_unsaved_change(CO_NODE& node, const CO_PARA& group) {
   return save_change(node, group) != CO_ERR_NONE;
 }
 
-bool has_autonomous_group(CO_NODE& node) {
-  Groups groups(node, store_index);
-  const CO_PARA* group = groups.next();
-  while (group != nullptr && !is_saved_autonomously(*group)) {
-    group = groups.next();
+// Starts the timer that stores the autonomous groups, or stops it if there are none. flags: those of all groups
+void start_or_stop(CO_NODE& node, uint32_t flags) {
+  const uint32_t period = tmr::ticks(node, CO_PARA_PERIOD, CO_TMR_UNIT_1MS);
+  if (period != 0 && (flags & CO_PARA__A_) != 0) {
+    tmr::start(node, node.ParaTmr, 0, period, save_changes, &node);
+  } else {
+    tmr::stop(node, node.ParaTmr);
   }
-  return group != nullptr;
 }
 
 // Returns whether the variable of an entry is located in the memory of a group.
@@ -182,8 +183,10 @@ CO_ERR save(CO_NODE& node, const CO_PARA& group, const uint8_t* data, store::Cau
 CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
   const bool is_partial = member != &CO_PARA::Size;
   CO_ERR last = CO_ERR_NONE;
+  uint32_t flags = 0;
   Groups groups(node, store_index);
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
+    flags |= group->Value;
     const uint32_t size = group->*member;
     const bool is_loaded = group->Type == type && size <= group->Size && !(is_partial && size == 0);
     const CO_ERR err = is_loaded && !has_unsaved_change(node, *group) ? load_group(node, *group, size) : CO_ERR_NONE;
@@ -196,6 +199,9 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
       (void)dict::set_fault(groups.entry(), node, CO_DICT_PARA_OVERLAP);
     }
   }
+  if (node.Nmt.Mode == CO_INIT) {
+    start_or_stop(node, flags);
+  }
   return last;
 }
 
@@ -205,15 +211,6 @@ void save_changes(void* node_pointer) {
   Groups groups(node, store_index);
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
     error::report(node, without_delay(save_change(node, *group)), groups.entry().Key);
-  }
-}
-
-void init(CO_NODE& node) {
-  const uint32_t period = tmr::ticks(node, CO_PARA_PERIOD, CO_TMR_UNIT_1MS);
-  if (node.Nmt.Mode == CO_INIT && period != 0 && has_autonomous_group(node)) {
-    tmr::start(node, node.ParaTmr, 0, period, save_changes, &node);
-  } else {
-    tmr::stop(node, node.ParaTmr);
   }
 }
 

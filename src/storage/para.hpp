@@ -7,15 +7,14 @@
 namespace co::para {
 
 // Loads the groups of a reset: stored values, otherwise defaults. Must be called before the values are read. member:
-// number of bytes to load: Size (all) or ComSize (the objects of the communication profile). Returns the last error,
-// which is also the node's error.
+// number of bytes to load: Size (all) or ComSize (the objects of the communication profile). In Initialisation, starts
+// the timer that stores autonomous groups. Returns the last error, which is also the node's error.
 CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member);
 
 // Stores the autonomous groups that have changed, within the budget. Timer action: called each CO_PARA_PERIOD, and
 // before a reset loads the groups.
 void save_changes(void* node_pointer);
 
-void init(CO_NODE& node);
 void on_mode(CO_NODE& node);
 
 // Marks the configuration as not verified (1020h) when the network has written an object of a group.
