@@ -28,6 +28,7 @@ class Function:
         self.is_weak = False
         self.callees = set()  # titles
         self.taken = set()  # titles of functions whose address it takes
+        self.tables = set()  # keys of tables of the same file whose address it takes
         self.calls = []  # Call
 
 
@@ -159,6 +160,9 @@ class Program:
             self.outside.update({target} - set(self.functions))
         elif target in self.functions and kind_of_section == "text":
             self.functions[self.title_in(file, symbol)].taken.add(target)
+        elif kind_of_section == "text" and self.title_in(file, symbol) in self.functions:
+            function = self.functions[self.title_in(file, symbol)]
+            function.tables.add((file, target.removeprefix(".rodata.")))  # or other data
         elif target in self.functions and kind_of_section in ("rodata", "data"):
             self.tables.setdefault((file, symbol), {})[offset] = target
 

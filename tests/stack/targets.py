@@ -16,7 +16,7 @@ class Rule:
         self.targets = targets
         self.function = where.removeprefix("in ") if where.startswith("in ") else "*"
         self.caller = where.removeprefix("from ") if where.startswith("from ") else ""
-        self.depends_on_caller = self.caller != "" or targets == PASSED
+        self.depends_on_caller = self.caller != "" or targets.startswith(PASSED)
         self.is_used = False
 
     def applies_to(self, call):
@@ -66,9 +66,15 @@ class Targets:
         for rule in self.rules_of(call):
             if rule.targets == PASSED:
                 found |= caller.taken if caller else set()
+            elif rule.targets.startswith(PASSED):
+                found |= self.of_passed_tables(caller, rule.targets.partition(".")[2])
             elif not rule.caller or (caller and fnmatchcase(caller.name, rule.caller)):
                 found |= self.of_words(rule.targets, call.file)
         return found
+
+    def of_passed_tables(self, caller, member):
+        tables = caller.tables & set(self.program.tables) if caller else set()
+        return set().union(*(self.of_table(key, member) for key in tables))
 
     def of_words(self, targets, file):
         words, parenthesis, parameters = targets.partition("(")

@@ -95,9 +95,14 @@ CO_ERR may_change(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before) {
 // Sub 5 --------------------------------------------------------------------------------------------------------------
 
 void apply_event(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t) {
-  if (is_configured(obj)) {
-    const auto change = is_tpdo(obj) ? pdo::change_event_time : pdo::change_deadline;
-    change(node, number_of(obj), pdo::ticks(node, value, CO_TMR_UNIT_1MS));
+  if (!is_configured(obj)) {
+    return;
+  }
+  const uint32_t ticks = pdo::ticks(node, value, CO_TMR_UNIT_1MS);
+  if (is_tpdo(obj)) {
+    pdo::change_event_time(node, number_of(obj), ticks);
+  } else {
+    pdo::change_deadline(node, number_of(obj), ticks);
   }
 }
 
