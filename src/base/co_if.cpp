@@ -36,13 +36,18 @@ void COIfCanEnable(CO_IF* cif, uint32_t baud) {
   if (baud != 0) {
     cif->Node->Baudrate = baud;
   }
-  port::can_enable(*cif->Node, cif->Node->Baudrate);
+  if (port::is_initialised(*cif->Node)) {
+    port::can_enable(*cif->Node, cif->Node->Baudrate);
+  }
 }
 
 int16_t COIfCanRead(CO_IF* cif, CO_IF_FRM* frm) {
   ASSERT_PTR_ERR(cif, -1);
   ASSERT_PTR_ERR(cif->Node, -1);
   ASSERT_PTR_ERR(frm, -1);
+  if (!port::is_initialised(*cif->Node)) {
+    return 0;
+  }
   int16_t result = receive::read(*cif->Node, *frm);
   while (result > 0 && !wire::normalise_length(*frm)) {
     count(cif->Node->Count.Malformed);
@@ -69,13 +74,17 @@ int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm) {
 void COIfCanReset(CO_IF* cif) {
   ASSERT_PTR_FATAL(cif);
   ASSERT_PTR_FATAL(cif->Node);
-  port::can_reset(*cif->Node);
+  if (port::is_initialised(*cif->Node)) {
+    port::can_reset(*cif->Node);
+  }
 }
 
 void COIfCanClose(CO_IF* cif) {
   ASSERT_PTR_FATAL(cif);
   ASSERT_PTR_FATAL(cif->Node);
-  port::can_close(*cif->Node);
+  if (port::is_initialised(*cif->Node)) {
+    port::can_close(*cif->Node);
+  }
 }
 
 uint32_t COIfNvmRead(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size) {

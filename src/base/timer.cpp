@@ -374,8 +374,10 @@ void restart(CO_NODE& node, CO_TMR_MEM& timer, uint32_t ticks) {
 }
 
 void stop(CO_NODE& node, CO_TMR_MEM& timer) {
-  const Lock lock(node.Tmr);
-  remove(node.Tmr, timer);
+  if (is_running(timer)) {
+    const Lock lock(node.Tmr);
+    remove(node.Tmr, timer);
+  }
 }
 
 uint32_t now(CO_NODE& node) {
@@ -459,7 +461,7 @@ void COTmrInit(CO_TMR* tmr, CO_NODE* node, CO_TMR_MEM* mem, uint16_t num, uint32
   const unsigned max = mem == nullptr ? 0U : (num > INT16_MAX ? INT16_MAX : num);
   tmr->Max = static_cast<uint16_t>(max);
   tmr->IdStep = tmr::power_of_two(max);
-  tmr->Clock = port::now(*node);
+  tmr->Clock = port::is_initialised(*node) ? port::now(*node) : 0;
 }
 
 uint32_t COTmrGetTicks(CO_TMR* tmr, uint16_t time, uint32_t unit) {
@@ -483,7 +485,7 @@ int16_t COTmrCreate(CO_TMR* tmr, uint32_t startTicks, uint32_t cycleTicks, CO_TM
     error::report(*tmr->Node, CO_ERR_BAD_ARG);
     return -1;
   }
-  if (startTicks == 0 && cycleTicks == 0) {
+  if ((startTicks == 0 && cycleTicks == 0) || !port::is_initialised(*tmr->Node)) {
     return -1;
   }
   const tmr::Lock lock(*tmr);
@@ -500,6 +502,9 @@ int16_t COTmrCreate(CO_TMR* tmr, uint32_t startTicks, uint32_t cycleTicks, CO_TM
 int16_t COTmrDelete(CO_TMR* tmr, int16_t actId) {
   ASSERT_PTR_FATAL_ERR(tmr, -1);
   ASSERT_PTR_FATAL_ERR(tmr->Node, -1);
+  if (!port::is_initialised(*tmr->Node)) {
+    return -1;
+  }
   const tmr::Lock lock(*tmr);
   CO_TMR_MEM* const timer = tmr::find(*tmr, actId);
   if (timer == nullptr) {
@@ -513,7 +518,7 @@ int16_t COTmrDelete(CO_TMR* tmr, int16_t actId) {
 int16_t COTmrService(CO_TMR* tmr) {
   ASSERT_PTR_ERR(tmr, -1);
   ASSERT_PTR_ERR(tmr->Node, -1);
-  if (port::has_elapsed(*tmr->Node)) {
+  if (port::is_initialised(*tmr->Node) && port::has_elapsed(*tmr->Node)) {
     tmr::serve(*tmr);
   }
   return tmr::has_due(*tmr) || tmr::has_to_send(*tmr->Node) ? 1 : 0;

@@ -4,16 +4,6 @@
 namespace co::port {
 namespace {
 
-// Functions of drivers that do nothing.
-void nothing(void*) {}
-void no_rate(void*, uint32_t) {}
-int16_t no_frame(void*, CO_IF_FRM*) { return 0; }
-int16_t not_sent(void*, const CO_IF_FRM*) { return 0; }
-uint32_t no_time(void*) { return 0; }
-
-constexpr CO_IF_CAN_DRV_EX no_can = {nothing, no_rate, no_frame, not_sent, nothing, nothing, nullptr, nullptr};
-constexpr CO_IF_TIMER_DRV_EX no_timer = {no_rate, no_time, nullptr};
-
 // Clears the frames that are queued for CONodeProcess(): they are part of the driver's receive queue.
 void forget_received([[maybe_unused]] const CO_NODE& node) {
 #if USE_REAL_TIME
@@ -22,21 +12,6 @@ void forget_received([[maybe_unused]] const CO_NODE& node) {
 }
 
 }  // namespace
-
-constexpr CO_NODE_EXT empty_extension() {
-  CO_NODE_EXT ext = {};
-  ext.Size = sizeof ext;
-  return ext;
-}
-const CO_NODE_EXT no_extension = empty_extension();
-
-void remove_drivers(CO_NODE& node) {
-  CO_IF& cif = node.If;
-  cif.Can = &no_can;
-  cif.Timer = &no_timer;
-  cif.Nvm = nullptr;
-  cif.HasElapsed = nullptr;
-}
 
 void init(CO_NODE& node) {
   const CO_IF& cif = node.If;

@@ -7,11 +7,8 @@
 
 namespace co::port {
 
-// Extension of a node that was initialised without one, or whose extension cannot be used.
-extern const CO_NODE_EXT no_extension;
-
-// Returns whether CONodeInit() was called: otherwise the node has neither an extension nor drivers, and functions of
-// the API have no effect.
+// Returns whether the node has drivers: otherwise CONodeInit() was not called or has refused them, the node has no
+// extension either, and functions of the API have no effect.
 [[nodiscard]] inline bool is_initialised(const CO_NODE& node) { return node.Ext != nullptr; }
 
 #if USE_OD
@@ -20,9 +17,6 @@ extern const CO_NODE_EXT no_extension;
   return is_initialised(node) ? node.Ext->Od : nullptr;
 }
 #endif
-
-// Gives the node drivers that do nothing: it could not be initialised, and API calls of the application have no effect.
-void remove_drivers(CO_NODE& node);
 
 void init(CO_NODE& node);
 

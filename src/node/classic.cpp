@@ -18,13 +18,22 @@ void add(CO_IF& cif, CO_IF_DRV* drivers) {
 #endif
 }
 
+constexpr CO_NODE_EXT empty_extension() {
+  CO_NODE_EXT ext = {};
+  ext.Size = sizeof ext;
+  return ext;
+}
+constexpr CO_NODE_EXT no_extension = empty_extension();
+
 }  // namespace
 
 extern "C" {
 
 void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) { CONodeInitEx(node, spec, nullptr); }
 
-void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) { node::init(node, spec, ext, add); }
+void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) {
+  node::init(node, spec, ext == nullptr ? &no_extension : ext, add);
+}
 
 // The symbols of both functions contain this library's configuration (lexican/detail/configuration.h); programs that
 // declare them without co_core.h link these aliases.

@@ -137,11 +137,14 @@ void run_pending(CO_NODE& node, unsigned what) {
       run_reset(node, static_cast<uint8_t>(pending));
     }
   }
+  if (node.State == 0) {  // stopped
+    node.Pending = 0;
+  }
 }
 
 // Returns the error because of which no driver may be called, or CO_ERR_NONE.
 CO_ERR check_drivers(const CO_NODE& node, const CO_NODE_SPEC& spec) {
-  if (node.Ext->Size < sizeof(CO_NODE_EXT)) {
+  if (node.Ext != nullptr && node.Ext->Size < sizeof(CO_NODE_EXT)) {
     return CO_ERR_NODE_EXT;
   }
   if (node.If.Can == nullptr) {
@@ -182,32 +185,31 @@ void take_drivers(CO_IF& cif, const CO_NODE_EXT& ext) {
   cif.NvmCtx = ext.NvmCtx;
 }
 
-// Initialises the drivers, the timers and the transmit queue. Where no driver may be called, the node gets drivers that
-// do nothing.
+// Initialises the drivers, the timers and the transmit queue. Where no driver may be called, the node has none.
 CO_ERR begin(CO_NODE& node, const CO_NODE_SPEC& spec) {
   const CO_ERR err = check_drivers(node, spec);
   if (err == CO_ERR_NONE) {
     node.Tmr.Freq = spec.TmrFreq;
     port::init(node);
+    transmit::init(node);
   } else {
-    node.Ext = &port::no_extension;
-    port::remove_drivers(node);
+    node.Ext = nullptr;
+    node.If.Nvm = nullptr;
   }
   COTmrInit(&node.Tmr, &node, spec.TmrMem, spec.TmrNum, spec.TmrFreq);
-  transmit::init(node);
   return err != CO_ERR_NONE ? err : check_spec(node, spec);
 }
 
 // Clears the node and copies its specification.
-void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) {
+void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT* ext) {
   node = {};
-  node.Ext = &ext;
+  node.Ext = ext;
   node.NodeId = spec.NodeId;
   node.Baudrate = spec.Baudrate;
   node.SdoBuf = spec.SdoBuf;
   node.If.Node = &node;
-  if (ext.Size >= sizeof ext) {
-    take_drivers(node.If, ext);
+  if (ext != nullptr && ext->Size >= sizeof *ext) {
+    take_drivers(node.If, *ext);
   }
   node.Nmt.Node = &node;
 #if USE_EMCY
@@ -416,7 +418,7 @@ void event::send_deferred(CO_NODE& node) {
 void node::init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext, AddDrivers add_drivers) {
   ASSERT_PTR_FATAL(node);
   ASSERT_PTR_FATAL(spec);
-  take_over(*node, *spec, ext == nullptr ? port::no_extension : *ext);
+  take_over(*node, *spec, ext);
   if (add_drivers != nullptr) {
     add_drivers(node->If, spec->Drv);
   }

@@ -9,6 +9,7 @@
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
 #include "dictionary/types/cob_id.hpp"
+#include "hal/port.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/emcy.hpp"
 
@@ -210,7 +211,7 @@ void recover(CO_NODE& node) {
 }  // namespace
 
 unsigned table_length(const CO_EMCY& emcy) {
-  const unsigned given = emcy.Node->Ext->EmcyNum;
+  const unsigned given = port::is_initialised(*emcy.Node) ? emcy.Node->Ext->EmcyNum : 0U;
   return given != 0 && given < CO_EMCY_N ? given : CO_EMCY_N;
 }
 
