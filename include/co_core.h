@@ -159,8 +159,6 @@ typedef struct CO_NODE_T {
 #endif
   CO_NMT Nmt;              ///< NMT slave, handle for co_nmt.h
   const CO_NODE_EXT* Ext;  ///< settings of CONodeInitEx(), or defaults; not null
-  /// Resolves all mappings again after CODictInit(), which sets it.
-  void (*Remap)(struct CO_NODE_T* node);
 #if USE_PARA
   /// Called after the network has written an object, while 1020h is not 0; otherwise null.
   void (*OnWrite)(struct CO_NODE_T* node, const struct CO_OBJ_T* obj);

@@ -166,14 +166,15 @@ CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 
 /// Makes \a root the table of the dictionary. The table has \a max entries, or ends at the first entry with key 0; an
-/// empty table is allowed. Called by CONodeInit(). Call it again (in the loop context) after entries were added to or
-/// removed from a table in RAM, but not from a type function. The Init functions of added entries are not called: call
-/// COObjInit(). An SDO transfer whose entry was moved is aborted at its next frame. The caller owns the table, which
-/// must live as long as the node.
+/// empty table is allowed. Call it again in the loop, or in an action of a timer of the application, after entries were
+/// added to or removed from a table in RAM. The Init functions of added entries are not called: call COObjInit(). An
+/// SDO transfer whose entry was moved is aborted at its next frame. The caller owns the table, which must live as long
+/// as the node.
 ///
 /// \retval 0…32767  number of entries (32767 if there are more)
 /// \retval -1       an argument is null, \a max is 0, or the table has a structural fault, which CODictGetFault()
-///                  returns; lookups then find no entry
+///                  returns; lookups then find no entry. Or the function was called in a callback or type function
+///                  while the node works (node error CO_ERR_DICT_BUSY); the table is unchanged
 int16_t CODictInit(CO_DICT* cod, struct CO_NODE_T* node, CO_OBJ* root, uint16_t max);
 
 /// Calls the Init function of every entry, in the order of the table.

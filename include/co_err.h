@@ -117,7 +117,8 @@ extern "C" {
   X(CO_ERR_PARA_OVERLAP, 0x15B, 347, "a parameter group overlaps one with a lower sub-index of 1010h; it is not used") \
   X(CO_ERR_OBJ_RANGE_LOW, 0x15C, 348, "the value is too low (SDO abort 0609 0032h)")                                   \
   X(CO_ERR_NODE_SDO_BUF, 0x15D, 349, "CONodeInit(): CO_NODE_EXT.SdoBufLen is less than CO_SSDO_N * CO_SDO_BUF_BYTE")   \
-  X(CO_ERR_NODE_ID_TWICE, 0x15E, 350, "another node on the bus sends the heartbeat of this node-ID")
+  X(CO_ERR_NODE_ID_TWICE, 0x15E, 350, "another node on the bus sends the heartbeat of this node-ID")                   \
+  X(CO_ERR_DICT_BUSY, 0x15F, 351, "CODictInit() in a callback or type function: call it in the loop")
 // clang-format on
 
 /// \cond internal

@@ -44,7 +44,6 @@ enum Pending : uint16_t {
   reset_communication = 0x02,
   commanded = 0x04,   // the reset was commanded by the NMT master
   configure = 0x08,   // parameters of SDO servers, SDO clients or PDOs were changed
-  remap = 0x10,       // CODictInit() has renumbered the entries
   mode = 0x20,        // CO_NMT.Next was requested
   send_emcy = 0x40,   // EMCY messages are queued, or the error register has changed
   send_tpdos = 0x80,  // event-driven TPDOs are marked; not while OdLock is held
@@ -55,7 +54,6 @@ inline void defer(CO_NODE& node, unsigned what) { node.Pending = static_cast<uin
 // Removes deferred work that is about to run.
 inline void remove(CO_NODE& node, unsigned what) { node.Pending = static_cast<uint16_t>(node.Pending & ~what); }
 
-inline constexpr uint8_t configuration = configure | remap;
 // Resets that are requested while the node is being initialised or started are dropped (forget_resets()): the
 // initialisation in progress includes them.
 inline constexpr uint8_t resets = reset_node | reset_communication | commanded;

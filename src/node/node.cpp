@@ -98,24 +98,13 @@ void run_reset(CO_NODE& node, uint8_t pending) {
   }
 }
 
-// Reads parameters from the dictionary again; entries_have_moved: also finds the mapped objects again.
-void reconfigure(CO_NODE& node, bool entries_have_moved) {
-  if (entries_have_moved) {
-    CO_ASSERT(node.Remap != nullptr);
-    node.Remap(&node);
-  }
-  services::configure(node);
-  routes::publish(node);
-}
-
 // Returns the deferred work that may run now, of that in what: TPDOs are not sent while OdLock is held.
 inline unsigned runnable(const CO_NODE& node, unsigned what) {
   const unsigned held = node.OdLocked != 0 ? event::send_tpdos : 0;
   return node.Pending & what & ~held;
 }
 
-// Runs the deferred work whose bits are set in what, and the work that it causes. TPDOs are sent after a configuration,
-// by which the mapped objects may have moved.
+// Runs the deferred work whose bits are set in what, and the work that it causes. A reset configures everything.
 void run_pending(CO_NODE& node, unsigned what) {
   while (node.State == event::running) {
     const unsigned pending = runnable(node, what);
@@ -124,10 +113,9 @@ void run_pending(CO_NODE& node, unsigned what) {
     }
     const event::Serving serving(node);
     event::remove(node, pending & ~unsigned{event::messages | event::mode});
-    // A reset configures everything, but callbacks before it may still send PDOs, whose objects may have moved.
-    const bool is_due = (pending & event::resets) == 0 || (pending & event::remap) != 0;
-    if ((pending & event::configuration) != 0 && is_due) {
-      reconfigure(node, (pending & event::remap) != 0);
+    if ((pending & event::configure) != 0 && (pending & event::resets) == 0) {
+      services::configure(node);
+      routes::publish(node);
     }
     event::send_deferred(node);
     if ((pending & event::mode) != 0) {

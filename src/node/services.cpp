@@ -225,20 +225,21 @@ void configure(CO_NODE& node) { run<&Service::configure>(node); }
 
 // While the objects of PDOs are found again, TPDOs that a type function requests are marked, as their objects may not
 // have been found yet.
-void remap(CO_NODE* node) {
+void remap(CO_NODE& node) {
 #if CO_SRDO_N > 0
-  srdo::halt(*node);
+  srdo::halt(node);
 #endif
 #if USE_RECORDER
-  recorder::on_remap(*node);
+  recorder::on_remap(node);
 #endif
   {
-    const dict::Lock lock(*node);
-    pdo::remap(*node);
+    const dict::Lock lock(node);
+    pdo::remap(node);
   }
 #if CO_SRDO_N > 0
-  srdo::report_halted(*node);
+  srdo::report_halted(node);
 #endif
+  event::defer(node, event::configure);
 }
 
 // Continues the senders in round-robin order (index: CO_NODE.NextSender), each with as many frames as the controller

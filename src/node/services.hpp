@@ -80,9 +80,8 @@ inline void forget_application(CO_NODE&) {}
 // Reads the COB-IDs of SDO servers and clients and the parameters of changed PDOs from the dictionary again.
 void configure(CO_NODE& node);
 
-// Finds the mapped objects of PDOs, SRDOs and recorders in the dictionary again: value of CO_NODE.Remap, so that only
-// programs that replace the dictionary link it.
-void remap(CO_NODE* node);
+// Reads parameters from the dictionary again and finds the mapped objects of PDOs, SRDOs and recorders in it.
+void remap(CO_NODE& node);
 
 // Continues the senders whose frames the controller has refused.
 void on_free(CO_NODE& node);

@@ -110,6 +110,7 @@ static const struct {
     ROW(CO_ERR_OBJ_RANGE_LOW, 0x15C),
     ROW(CO_ERR_NODE_SDO_BUF, 0x15D),
     ROW(CO_ERR_NODE_ID_TWICE, 0x15E),
+    ROW(CO_ERR_DICT_BUSY, 0x15F),
 };
 
 #define EXPECTED_NUM (sizeof(Expected) / sizeof(Expected[0]))

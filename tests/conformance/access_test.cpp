@@ -248,7 +248,7 @@ TEST_CASE("access hook, SDO: if it sets the state Stopped the request is answere
   node.ask("601#2F01200055000000", "581#6001200000000000");
 }
 
-TEST_CASE("access hook, SDO: it may write the object and replace the dictionary of the node") {
+TEST_CASE("access hook, SDO: it may write the object, but not replace the dictionary of the node") {
   AccessLog log;
   static std::uint8_t other = 0x33;
   static std::uint8_t error_register = 0;
@@ -262,14 +262,13 @@ TEST_CASE("access hook, SDO: it may write the object and replace the dictionary 
   };
   node.ask("601#4001200000000000", "581#4F01200044000000");
   log.on_sdo = [&](CO_NODE& self, const CO_ACCESS_SDO&) {
-    (void)CODictInit(&self.Dict, &self, dictionary, 3);
+    CHECK(CODictInit(&self.Dict, &self, dictionary, 3) == -1);
     return 0U;
   };
-  CO_IF_FRM request = frame("601#4001200000000000");
-  node.rx(request);
-  node.tx("581#4F01200033000000");
+  node.ask("601#4001200000000000", "581#4F01200044000000");
+  CHECK(node.error() == CO_ERR_DICT_BUSY);
   log.on_sdo = nullptr;
-  node.ask("601#4002200000000000", "581#8002200000000206");
+  node.ask("601#4002200000000000", "581#4B02200011220000");
 }
 
 TEST_CASE("access hook, SDO: it is called for 1010h and 1011h like for any other object") {

@@ -495,33 +495,6 @@ TEST_CASE("re-entrancy: after CODictInit() PDOs use the objects of the new table
   node.tx("181#12");
 }
 
-TEST_CASE("re-entrancy: a TPDO before a requested reset has the objects of a table that was replaced after it") {
-  std::uint8_t value = 0x12;
-  std::vector<CO_OBJ> table = {{CO_KEY(0x1800, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, 0x40000181},
-                               {CO_KEY(0x1A00, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 1},
-                               {CO_KEY(0x1A00, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, CO_LINK(0x2000, 0, 8)},
-                               {CO_KEY(0x2000, 0, CO_OBJ____PR_), CO_TUNSIGNED8, &value}};
-  std::vector<CO_OBJ> shorter = table;
-  table.insert(table.begin(), {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0});
-  Fixture node;
-  const auto replace = [&](std::vector<CO_OBJ>& next) {
-    CHECK(CODictInit(&node->Dict, &node.node, next.data(), static_cast<std::uint16_t>(next.size())) > 0);
-  };
-  node.call([&] { replace(table); });
-  node.ask("000#8201", "701#00");
-  node.rx("000#0101");
-  callbacks().can_receive = [&](CO_IF_FRM*) {
-    CONmtReset(&node->Nmt, CO_RESET_COM);
-    replace(shorter);
-  };
-  callbacks().mode_change = [&](CO_NMT*, CO_MODE mode) {
-    if (mode == CO_INIT) CHECK(COTPdoRequest(&node.node, 0) == CO_ERR_NONE);
-  };
-  node.frames_per_call(2);
-  node.rx("123#");
-  node.tx({"181#12", "701#00"});
-}
-
 #endif
 
 }  // namespace

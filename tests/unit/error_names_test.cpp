@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-constexpr unsigned last_error = 0x15E;
+constexpr unsigned last_error = 0x15F;
 constexpr unsigned last_fault = 15;
 
 // Checks that the text is one line that can follow the name of an error in a message.
@@ -220,6 +220,6 @@ TEST_CASE("CONodeGetErrText: a text that is too long is cut off; the longest one
 // The numbers must not change, because firmware logs them.
 static_assert(CO_DICT_NOT_ASCENDING == 1 && CO_DICT_NO_DATA == 3 && CO_DICT_WRONG_PLACE == 6);
 static_assert(CO_DICT_DIRECT_CONST == 9 && CO_DICT_PARA_OVERLAP == 12 && CO_DICT_MAP_LENGTH == last_fault);
-static_assert(CO_ERR_OBJ_RANGE_LOW == 0x15C && CO_ERR_NODE_ID_TWICE == last_error);
+static_assert(CO_ERR_OBJ_RANGE_LOW == 0x15C && CO_ERR_DICT_BUSY == last_error);
 
 }  // namespace

@@ -77,9 +77,7 @@ CO_ERR map_object(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj) {
   return CO_ERR_NONE;
 }
 
-CO_OBJ* object_at(CO_NODE& node, uint16_t entry) {
-  return entry < node.Dict.Num && (node.Pending & event::remap) == 0 ? &node.Dict.Root[entry] : nullptr;
-}
+CO_OBJ* object_at(CO_NODE& node, uint16_t entry) { return entry < node.Dict.Num ? &node.Dict.Root[entry] : nullptr; }
 
 }  // namespace co::mpdo
 

@@ -59,16 +59,13 @@ bool has_length(CO_NODE& node, CO_OBJ& obj, unsigned bits) {
   return whole && bits - 1U < all_bits && obj::size(obj, node, obj::is_stream(obj) ? 0 : bytes) == bytes;
 }
 
-// Returns whether CODictInit() has renumbered the entries: the numbers in mappings are invalid until remap() has run.
-bool is_numbered_anew(const CO_NODE& node) { return (node.Pending & event::remap) != 0; }
-
 uintptr_t address_of(const CO_OBJ& obj) { return obj.Data; }
 
 // Returns whether the value is exactly the bytes of its variable, accessible in one access. RPDO objects with flag A
 // are written by their type, which detects changes.
 bool is_plain(const CO_NODE& node, const CO_OBJ& obj, Direction direction, unsigned bytes) {
   const bool is_single_bit = maps_bits && bytes == 0;
-  if (!copies || is_single_bit || integer::plain_bytes(obj) != bytes || is_numbered_anew(node)) {
+  if (!copies || is_single_bit || integer::plain_bytes(obj) != bytes) {
     return false;
   }
   return direction == Direction::transmit ||
@@ -230,13 +227,10 @@ CO_ERR copy_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction
   return call_type(node, part, frame.Data + first_byte(part), direction);
 }
 
-// Copies an object and reports an error. Reads the key first, because the type function may change the table.
+// Copies an object and reports an error.
 CO_ERR copy_or_report(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
-  const uint32_t key = part.obj.Key;
   const CO_ERR err = copy_by_type(node, frame, part, direction);
-  if (err != CO_ERR_NONE) {
-    error::report(node, err, key);
-  }
+  error::report(node, err, part.obj.Key);
   return err;
 }
 
@@ -252,9 +246,6 @@ CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Dir
       const CO_ERR err = copy_or_report(node, frame, {node.Dict.Root[entry], position, length}, direction);
       result = err != CO_ERR_NONE ? err : result;
     }
-    if (is_numbered_anew(node)) {
-      return CO_ERR_TPDO_COM_OBJ;
-    }
     position += length;
   }
   return direction == Direction::receive ? CO_ERR_NONE : result;
@@ -262,9 +253,6 @@ CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Dir
 
 [[gnu::noinline]] CO_ERR copy_locked(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
   const Lock lock(node);
-  if (is_numbered_anew(node)) {
-    return CO_ERR_TPDO_COM_OBJ;
-  }
   return is_copied(map) ? copy_plain(node.Dict.Root, map, frame.Data, direction)
                         : copy_by_types(node, map, frame, direction);
 }
@@ -326,7 +314,7 @@ Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, M
 
 CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
   CO_ASSERT(exists(map) && length_of(map) <= sizeof frame.Data);
-  const bool at_once = is_copied(map) && node.Ext->OdLock == nullptr && !is_numbered_anew(node);
+  const bool at_once = is_copied(map) && node.Ext->OdLock == nullptr;
   return at_once ? copy_plain(node.Dict.Root, map, frame.Data, direction) : copy_locked(node, map, frame, direction);
 }
 

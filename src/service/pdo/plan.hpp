@@ -72,7 +72,7 @@ inline void copy_data(uint8_t* to, const uint8_t* from) {
 
 // Copies the data of a frame into the objects of a PDO, or the objects into a frame, with OdLock held. RPDO: objects
 // that cannot be written become the node's error, the others are written. TPDO: returns the error of an object that
-// cannot be read. CO_ERR_TPDO_COM_OBJ: the entries were renumbered meanwhile, the remaining objects are not copied.
+// cannot be read.
 [[nodiscard]] CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction);
 
 [[nodiscard]] inline uint16_t number_of(const CO_NODE& node, const CO_OBJ& obj) {

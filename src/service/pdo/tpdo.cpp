@@ -50,9 +50,6 @@ CO_ERR serve(CO_TPDO& pdo, Use use) {
   if (use == Use::send_sampled) {
     copy_data(frame.Data, pdo.Own.Data);
   } else if (const CO_ERR err = copy_objects(*pdo.Node, pdo.Map, frame, Direction::transmit); err != CO_ERR_NONE) {
-    if (err == CO_ERR_TPDO_COM_OBJ) {  // the error of an object was already reported with the object's key
-      error::report(*pdo.Node, err);
-    }
     return err;
   } else if (keeps_sample(pdo)) {
     copy_data(pdo.Own.Data, frame.Data);

@@ -169,10 +169,10 @@ int32_t extend(const CO_RECORDER& recorder, uint32_t number, uint32_t bits) {
   return static_cast<int32_t>((number ^ sign) - sign);
 }
 
-// Returns whether CO_TREC_ENABLE forbids samples. Between CODictInit() and on_remap() its variable is not known.
+// Returns whether CO_TREC_ENABLE forbids samples.
 bool is_disabled(const CO_NODE& node) {
   const uint8_t* const enable = node.Recorders.Enable;
-  return (node.Pending & event::remap) != 0 || (enable != nullptr && *enable == 0);
+  return enable != nullptr && *enable == 0;
 }
 
 CO_ERR sample(CO_RECORDER& recorder) {

@@ -51,10 +51,13 @@ void on_slice(void* node_pointer) {
   return position != channel.Read ? obj::seek(obj, *channel.Node, position) : CO_ERR_NONE;
 }
 
+// Whether a type function may end its transfer: by the removal of an extension.
+constexpr bool may_end_itself = USE_OD != 0;
+
 // Called after each Read of an object of unknown size. Once the Read has reached the end of the object, the type
 // reports the size: it becomes the size of the transfer, and limits Read to the bytes that the type has filled in.
 uint32_t learn_size(CO_SDO& channel, uint32_t position) {
-  if (channel.Obj == nullptr) {
+  if (may_end_itself && channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
   }
   const uint32_t size = access::size(*channel.Obj, *channel.Node, 0);
@@ -193,7 +196,7 @@ uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint3
       set(channel, behind);
       return no_abort;
     }
-    if (channel.Obj == nullptr) {  // the Reset function has moved the entry
+    if (may_end_itself && channel.Obj == nullptr) {
       return CO_SDO_ERR_TOS_STATE;
     }
     if (err == CO_ERR_NONE) {

@@ -177,7 +177,7 @@ CO_ERR access_all(CO_NODE& node, const CO_SRDO& srdo, uint8_t* const (&data)[2])
   const dict::Lock lock(node);
   unsigned position[2] = {0, 0};
   for (unsigned place = 0; place < srdo.Num; ++place) {
-    if ((node.Pending & event::remap) != 0 || (srdo.Flags & served) == 0) {
+    if ((srdo.Flags & served) == 0) {
       return CO_ERR_OBJ_STATE;
     }
     const unsigned frame = place % 2;
