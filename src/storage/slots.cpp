@@ -27,12 +27,6 @@ struct Header {
   uint32_t crc;  // of the members above, the identity of the record and the data
 };
 
-struct Slot {
-  uint32_t start;
-  Header header;
-  Found found;
-};
-
 [[gnu::noinline]] uint32_t round_up(uint32_t value, uint32_t unit) {
   const uint32_t over = value % unit;
   return over == 0 ? value : value + (unit - over);
@@ -49,6 +43,16 @@ struct Region {
         buffer(CO_STORE_BUFFER - CO_STORE_BUFFER % program),
         header(round_up(sizeof(Header), program)),
         slot(round_up(header + round_up(what.size, program), unit)) {}
+
+  // Returns whether the record fits into the memory. Also requires that the erase size is a multiple of the program
+  // size. The first condition limits all sizes to half the capacity, so that no later sum exceeds 32 bits.
+  [[nodiscard]] bool fits() const {
+    const uint32_t half = shape.Capacity / 2;
+    if (program > CO_STORE_BUFFER || shape.EraseSize % program != 0 || shape.EraseSize > half || record.size > half) {
+      return false;
+    }
+    return slot <= half && record.start <= shape.Capacity - 2 * slot && record.start % unit == 0;
+  }
 
   CO_NODE& node;
   const Record& record;
@@ -175,6 +179,16 @@ Found read_slot(const Region& region, uint32_t start, Header& header, Pass* pass
   return is_default ? Found::defaults : Found::data;
 }
 
+// One of the two slots of a record.
+struct Slot {
+  Slot(const Region& region, uint32_t begin, Pass* pass)
+      : start(begin), header{}, found(region.fits() ? read_slot(region, begin, header, pass) : Found::no_place) {}
+
+  uint32_t start;
+  Header header;
+  Found found;
+};
+
 // Returns whether the slot holds a valid record.
 bool is_whole(const Slot& slot) { return slot.found == Found::data || slot.found == Found::defaults; }
 
@@ -184,42 +198,18 @@ bool is_newer(const Slot& slot, const Slot& other) {
 }
 
 // Reads a slot again. Returns whether it still holds the same.
-[[gnu::noinline]] bool read_again(const Region& region, const Slot& slot, Pass& pass) {
-  Header header;
-  return read_slot(region, slot.start, header, &pass) == slot.found;
-}
-
-// Returns whether the record fits into the memory. Also requires that the erase size is a multiple of the program size.
-// The first condition limits all sizes to half the capacity, so that no later sum exceeds 32 bits.
-bool fits(const Region& region) {
-  const CO_NVM_SHAPE& shape = region.shape;
-  const uint32_t half = shape.Capacity / 2;
-  if (region.program > CO_STORE_BUFFER || shape.EraseSize % region.program != 0 || shape.EraseSize > half ||
-      region.record.size > half) {
-    return false;
-  }
-  const uint32_t start = region.record.start;
-  return region.slot <= half && start <= shape.Capacity - 2 * region.slot && start % region.unit == 0;
+bool read_again(const Region& region, const Slot& slot, Pass& pass) {
+  return Slot(region, slot.start, &pass).found == slot.found;
 }
 
 // Both slots of a record.
 struct Slots {
-  // Returns false if the record does not fit into the memory.
-  [[nodiscard]] bool read_both(const Region& region) {
-    if (!fits(region)) {
-      return false;
-    }
-    uint32_t start = region.record.start;
-    for (Slot& each : slot) {
-      each.start = start;
-      each.found = read_slot(region, start, each.header, nullptr);
-      start += region.slot;
-    }
-    const bool is_first = is_newer(slot[0], slot[1]);
-    newest = is_first ? &slot[0] : &slot[1];
-    other = is_first ? &slot[1] : &slot[0];
-    return true;
-  }
+  explicit Slots(const Region& region)
+      : slot{Slot(region, region.record.start, nullptr), Slot(region, region.record.start + region.slot, nullptr)},
+        newest(&slot[is_newer(slot[0], slot[1]) ? 0 : 1]),
+        other(&slot[newest == slot ? 1 : 0]) {}
+  Slots(const Slots&) = delete;
+  Slots& operator=(const Slots&) = delete;
 
   Slot slot[2];
   const Slot* newest;  // the newest valid one; the second slot if none is valid
@@ -311,15 +301,16 @@ bool write_slot(const Region& region, uint32_t start, Header& header, const uint
 // Writes the slot that does not hold the newest valid record. data: null for the defaults. The generation is one higher
 // than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both. Reads both slots again
 // afterwards: if the remaining slot could not be read before, its record may be the newer one.
-CO_ERR write_record(const Region& region, Slots& slots, const uint8_t* data) {
+CO_ERR write_record(const Region& region, const Slots& slots, const uint8_t* data) {
   const uint32_t start = slots.other->start;
   const uint32_t generation = slots.newest->header.generation + 1;
   const Record& record = region.record;
   Header header = {magic, record.version, data == nullptr ? defaults : record.size, generation, 0};
-  if (!write_slot(region, start, header, data) || !slots.read_both(region)) {
+  if (!write_slot(region, start, header, data)) {
     return CO_ERR_IF_NVM_WRITE;
   }
-  const Slot& newest = *slots.newest;
+  const Slots after(region);
+  const Slot& newest = *after.newest;
   const bool is_loaded_next = newest.start == start && is_whole(newest) && newest.header.crc == header.crc &&
                               newest.header.generation == generation;
   if (!is_loaded_next) {
@@ -333,10 +324,7 @@ CO_ERR write_record(const Region& region, Slots& slots, const uint8_t* data) {
 Found load(CO_NODE& node, const Record& record, store::Target& target) {
   CO_ASSERT(target.size <= record.size);
   const Region region(node, record);
-  Slots slots;
-  if (!slots.read_both(region)) {
-    return Found::no_place;
-  }
+  const Slots slots(region);
   target.is_older = is_newest_damaged(slots);
   const Slot* slot = slots.newest;
   for (unsigned n = 0; n < 2; ++n) {
@@ -350,14 +338,14 @@ Found load(CO_NODE& node, const Record& record, store::Target& target) {
   }
   target.is_older = false;
   remember(region, *slots.newest);
-  const bool is_blank = slots.newest->found == Found::blank && slots.other->found == Found::blank;
-  return is_blank ? Found::blank : Found::lost;
+  const bool is_unused = !is_whole(*slots.newest) && slots.newest->found == slots.other->found;
+  return is_unused ? slots.newest->found : Found::lost;
 }
 
 CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data, store::Cause cause) {
   const Region region(node, record);
-  Slots slots;
-  if (!slots.read_both(region)) {
+  const Slots slots(region);
+  if (slots.newest->found == Found::no_place) {
     return CO_ERR_PARA_STORE;
   }
   if (cause == store::Cause::change && slots.newest->found == Found::defaults) {
