@@ -42,10 +42,13 @@ uint32_t visit(CO_NODE& node, const CO_OBJ& obj, CO_ERR* error) {
   return flags;
 }
 
-template <const rules::Rule& number, const rules::Rule& entry>
-CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
-  return dict::check_type(*obj, *node, is_number_of_groups(*obj) ? number : entry);
+CO_ERR check(CO_OBJ* obj, CO_NODE* node) {
+  return dict::check_type(*obj, *node,
+                          is_number_of_groups(*obj) ? rules::parameter_group_number : rules::parameter_group);
 }
+
+// Null where checks are switched off.
+constexpr CO_OBJ_INIT_FUNC init = USE_DICT_CHECK != 0 ? check : nullptr;
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
   return is_number_of_groups(*obj) ? integer::Number<1>::size(obj, node, width)
@@ -133,10 +136,8 @@ WEAK int16_t COParaDefault(CO_PARA*) { return 0; }
 
 WEAK void COParaLost(CO_NODE*, const CO_PARA*) {}
 
-const CO_OBJ_TYPE COTParaStore = {para::size, para::init_entry<rules::parameter_group_number, rules::parameter_group>,
-                                  para::read, para::write, nullptr};
-const CO_OBJ_TYPE COTParaRestore = {para::size, para::init_entry<rules::parameter_group_number, rules::parameter_group>,
-                                    para::read, para::write, nullptr};
+const CO_OBJ_TYPE COTParaStore = {para::size, para::init, para::read, para::write, nullptr};
+const CO_OBJ_TYPE COTParaRestore = {para::size, para::init, para::read, para::write, nullptr};
 const CO_OBJ_TYPE COTVerifyConfig = {integer::Number<4>::size, para::init_verify, integer::Number<4>::read,
                                      para::write_verify, nullptr};
 
