@@ -205,8 +205,8 @@ const CO_TMR_MEM& remove_first(CO_TMR& t) {
   return remove_elapsed(t, t.First);
 }
 
-// Runs the action of an elapsed timer, and the work that it has deferred. The node works during the actions of its own
-// timers, not during those of the application.
+// Runs the action of an elapsed timer, and the work that it has deferred. The node works during the actions of the
+// stack's timers, not during those of the application.
 void run(CO_NODE& node, const CO_TMR_MEM& timer) {
   const uint8_t before = node.State;
   node.State = static_cast<uint8_t>(before | (timer.Pooled != 0 ? 0U : unsigned{event::serving}));
