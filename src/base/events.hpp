@@ -11,7 +11,7 @@ namespace co::event {
 [[nodiscard]] inline bool is_allowed(const CO_NODE& node, uint8_t what) { return (node.Nmt.Allowed & what) != 0; }
 
 // Requests an NMT state: run_deferred() enters it. The last request counts; CO_INVALID (CONodeStop()) is final.
-void request_mode(CO_NODE& node, CO_MODE mode);
+void request_mode(CO_NODE& node, CO_MODE requested);
 // Enters the requested NMT state: calls the application's callback, sets the permissions, then informs every service.
 // The caller keeps the node working.
 void enter_requested_mode(CO_NODE& node);

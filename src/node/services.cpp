@@ -434,6 +434,14 @@ void enter(CO_NODE& node, CO_MODE mode) {
   }
 }
 
+// Calls CONmtModeChange() and enters the state, unless the callback has requested another one.
+void announce_and_enter(CO_NODE& node, CO_MODE next) {
+  callback::change_mode(node, next);
+  if (next == node.Nmt.Next) {
+    enter(node, next);
+  }
+}
+
 }  // namespace
 
 // Enters the requested NMT state, if it is another one. A state that CONmtModeChange() or a service requests replaces
@@ -445,12 +453,8 @@ void event::enter_requested_mode(CO_NODE& node) {
   while ((node.Pending & event::mode) != 0) {
     event::send_deferred(node);
     event::remove(node, event::mode);
-    const CO_MODE next = nmt.Next;
-    if (next != nmt.Mode) {
-      callback::change_mode(node, next);
-      if (next == nmt.Next) {
-        enter(node, next);
-      }
+    if (nmt.Next != nmt.Mode) {
+      announce_and_enter(node, nmt.Next);
     }
   }
   if (starts) {

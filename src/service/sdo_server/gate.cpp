@@ -2,7 +2,6 @@
 // The access hook of SDO transfers.
 #include "base/gate.hpp"
 
-#include "base/events.hpp"
 #include "service/sdo_server/transfer.hpp"
 
 #if USE_ACCESS_HOOK
@@ -29,7 +28,7 @@ void describe_download(CO_ACCESS_SDO& access, const CO_IF_FRM& request) {
 
 }  // namespace
 
-Opened ask_application(CO_SDO& channel, const CO_IF_FRM& request) {
+uint32_t ask_application(CO_SDO& channel, const CO_IF_FRM& request) {
   CO_NODE& node = *channel.Node;
   CO_ACCESS_SDO access = {};
   access.Index = static_cast<uint16_t>(CO_GET_IDX(channel.Key));
@@ -39,15 +38,7 @@ Opened ask_application(CO_SDO& channel, const CO_IF_FRM& request) {
     access.Direction = CO_OBJ_DOWNLOAD;
     describe_download(access, request);
   }
-  const uint32_t abort = gate::ask<uint32_t, const CO_ACCESS_SDO>(node, &CO_CALLBACKS::AccessSdo, access);
-  if (abort != no_abort) {
-    return {nullptr, abort};
-  }
-  if (!event::is_allowed(node, CO_SDO_ALLOWED)) {
-    return {nullptr, CO_SDO_ERR_TOS_STATE};
-  }
-  CO_OBJ* const obj = dict::find(node, channel.Key);
-  return {obj, stream::check(node, channel.Key, obj, access.Direction)};
+  return gate::ask<uint32_t, const CO_ACCESS_SDO>(node, &CO_CALLBACKS::AccessSdo, access);
 }
 
 }  // namespace co::sdo_server

@@ -83,8 +83,8 @@ struct Opened {
 };
 
 // Calls the access hook: whether the client may begin this transfer of an object that exists and has the access right.
-// Finds the object again afterwards, because the hook may have changed the dictionary.
-[[nodiscard]] Opened ask_application(CO_SDO& channel, const CO_IF_FRM& request);
+// Returns an abort code.
+[[nodiscard]] uint32_t ask_application(CO_SDO& channel, const CO_IF_FRM& request);
 
 // Calls restart() and performs the checks at the begin of every transfer: object, access right, access hook. The object
 // becomes node.RequestObj. found: the object of the request, or null if it has to be found
@@ -97,8 +97,8 @@ struct Opened {
   node.RequestObj = opened.abort == no_abort ? obj : nullptr;
   if constexpr (USE_ACCESS_HOOK != 0) {
     if (opened.abort == no_abort) {
-      opened = ask_application(channel, request);
-      node.RequestObj = opened.abort == no_abort ? opened.obj : nullptr;
+      opened.abort = ask_application(channel, request);
+      node.RequestObj = opened.abort == no_abort ? obj : nullptr;
     }
   }
   return opened;
