@@ -159,6 +159,10 @@ typedef struct CO_NODE_T {
 #endif
   CO_NMT Nmt;              ///< NMT slave, handle for co_nmt.h
   const CO_NODE_EXT* Ext;  ///< settings of CONodeInitEx(), or defaults; not null
+  /// Passes a stream to or from a PDO, and keeps the position of the application; null: the table has no stream of the
+  /// library.
+  enum CO_ERR_T (*PassStream)(CO_OBJ* obj, struct CO_NODE_T* node, CO_OBJ_READ_FUNC function, void* data,
+                              uint32_t bytes);
 #if USE_PARA
   /// Called after the network has written an object, while 1020h is not 0; otherwise null.
   void (*OnWrite)(struct CO_NODE_T* node, const struct CO_OBJ_T* obj);

@@ -8,6 +8,7 @@
 #include "dictionary/abort_code.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
+#include "dictionary/types/whole.hpp"
 #include "service/pdo/pdo.hpp"
 
 namespace co::od {
@@ -90,6 +91,7 @@ using namespace co::od;
 extern "C" {
 
 CO_ERR ODTypeInit(CO_OBJ_T* obj, CO_NODE_T* node) {
+  node->PassStream = obj::pass_stream;
   const CO_OBJ_TYPE* const type = original_type(*obj);
   if (type == nullptr || type->Init == nullptr) {
     return CO_ERR_NONE;

@@ -5,6 +5,7 @@
 #include "co_string.h"
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
+#include "dictionary/types/whole.hpp"
 #if USE_OD
 #include "co_od.h"
 
@@ -44,6 +45,7 @@ const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) { return obj.Type; }
 #endif
 
 CO_ERR init(CO_OBJ* obj, CO_NODE_T* node) {
+  node->PassStream = obj::pass_stream;
   const CO_ERR err = dict::check_type(*obj, *node, rules::variable);
   if (err != CO_ERR_NONE) {
     return err;

@@ -53,8 +53,11 @@ CO_ERR pass_at_beginning(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, 
   return err != CO_ERR_NONE ? err : function(&obj, &node, data, bytes);
 }
 
-[[gnu::noinline]] CO_ERR pass_stream(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, void* data,
-                                     uint32_t bytes) {
+}  // namespace
+
+CO_ERR pass_stream(CO_OBJ* source, CO_NODE* owner, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes) {
+  CO_OBJ& obj = *source;
+  CO_NODE& node = *owner;
   const CO_OBJ_TYPE* const type = stream::original_type(obj);
   const KeptAccess access(node);
   if (type == nullptr || type->Reset != stream::reset) {
@@ -64,10 +67,11 @@ CO_ERR pass_at_beginning(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, 
   return pass_at_beginning(obj, node, function, data, bytes);
 }
 
-}  // namespace
-
 CO_ERR access_whole(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes) {
-  return is_stream(obj) ? pass_stream(obj, node, function, data, bytes) : function(&obj, &node, data, bytes);
+  if (is_stream(obj) && node.PassStream != nullptr) {
+    return node.PassStream(&obj, &node, function, data, bytes);
+  }
+  return pass_at_beginning(obj, node, function, data, bytes);
 }
 
 }  // namespace co::obj

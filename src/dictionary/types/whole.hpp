@@ -6,9 +6,12 @@
 
 namespace co::obj {
 
-// Calls a Read or Write function of the object's type; a stream is accessed from its beginning. An access of the
-// application with COObjRdBufCont() or COObjWrBufCont(), to this stream or to another extended stream, keeps its
-// position.
+// Calls a Read or Write function of the object's type; a stream is accessed from its beginning.
 [[nodiscard]] CO_ERR access_whole(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes);
+
+// Like access_whole(), for a stream: an access of the application with COObjRdBufCont() or COObjWrBufCont(), to this
+// stream or to another extended stream, keeps its position. Value of CO_NODE.PassStream, which the Init functions of
+// the library's streams set, so that only programs with such streams link it.
+CO_ERR pass_stream(CO_OBJ* obj, CO_NODE_T* node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes);
 
 }  // namespace co::obj
