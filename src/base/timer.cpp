@@ -58,6 +58,8 @@ void program(const CO_TMR& t, uint32_t now) {
   port::set_alarm(*t.Node, first != nullptr ? first->At - now : 0);
 }
 
+bool is_of(const CO_TMR_MEM& timer, Owner owner) { return timer.Owner == static_cast<uint8_t>(owner); }
+
 // Makes timers due that have elapsed, and programs the driver. Loops that poll a driver call it many times in each
 // tick, without an effect. A driver with alarms may have called it before its alarm, and needs a new one.
 void serve(CO_TMR& t) {
@@ -193,7 +195,7 @@ const CO_TMR_MEM& remove_elapsed(CO_TMR& t, CO_TMR_MEM*& link) {
     return timer;
   }
   timer.Running = 0;
-  if (timer.Pooled != 0) {
+  if (is_of(timer, Owner::pool)) {
     release(t, timer);
   }
   return timer;
@@ -209,7 +211,9 @@ const CO_TMR_MEM& remove_first(CO_TMR& t) {
 // stack's timers, not during those of the application.
 void run(CO_NODE& node, const CO_TMR_MEM& timer) {
   const uint8_t before = node.State;
-  node.State = static_cast<uint8_t>(before | (timer.Pooled != 0 ? 0U : unsigned{event::serving}));
+  if (!is_of(timer, Owner::pool)) {
+    node.State = static_cast<uint8_t>(before | event::serving);
+  }
   timer.Func(timer.Para);
   event::end_call(node, before);
 }
@@ -220,8 +224,7 @@ void run(CO_NODE& node, const CO_TMR_MEM& timer) {
 enum class Share : uint8_t { all, mainline, real_time };
 
 bool is_of(const CO_TMR_MEM& timer, Share share) {
-  const bool real_time = timer.Pooled == 0 && timer.Id != 0;
-  return share == Share::all || real_time == (share == Share::real_time);
+  return share == Share::all || is_of(timer, Owner::real_time) == (share == Share::real_time);
 }
 
 Share share_of_mainline(const CO_TMR& t) { return t.Node->Ext->Mainline != nullptr ? Share::mainline : Share::all; }
@@ -327,7 +330,7 @@ CO_TMR_MEM* take_free(CO_TMR& t) {
     timer = &t.Pool[t.Used];
     *timer = {};
     timer->Id = t.Used;
-    timer->Pooled = 1;
+    timer->Owner = static_cast<uint8_t>(Owner::pool);
     ++t.Used;
   }
   return timer;

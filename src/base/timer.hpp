@@ -45,10 +45,13 @@ void run_due(CO_TMR& timers);
 [[nodiscard]] inline bool run_locked(CO_TMR&, void (*)(CO_NODE& node)) { return false; }
 #endif
 
+// Values of CO_TMR_MEM.Owner. Timers of the pool have ids, the others are members of their owner's structure.
+enum class Owner : uint8_t { module, pool, real_time };
+
 // Marks a timer of SYNC or of a PDO: where there is a real-time thread, run_real_time() runs its action. To be called
 // once for a timer that is part of its owner.
 #if USE_REAL_TIME
-inline void assign_to_real_time(CO_TMR_MEM& timer) { timer.Id = 1; }
+inline void assign_to_real_time(CO_TMR_MEM& timer) { timer.Owner = static_cast<uint8_t>(Owner::real_time); }
 // Runs the actions of all elapsed timers that are marked.
 void run_real_time(CO_TMR& timers);
 #else
