@@ -37,7 +37,7 @@ typedef struct CO_HBCONS_T {
   struct CO_NODE_T* Node;    ///< owner, set by CONodeInit()
   struct CO_HBCONS_T* Next;  ///< not used
   CO_MODE State;             ///< last state received; CO_INVALID: none
-  int16_t Tmr;               ///< last state byte received; negative: none
+  int16_t Tmr;               ///< monitoring: 0: no heartbeat received yet, 1: in time, 2: missing
   uint16_t Time;             ///< ms
   uint8_t NodeId;            ///< node-ID of the monitored node; 0, and above 127: the entry is not used
   uint8_t Event;             ///< missed periods, see CONmtGetHbEvents()

@@ -143,7 +143,8 @@ void CONmtResetRequest(CO_NMT* nmt, CO_NMT_RESET reset);
 void CONmtHbConsEvent(CO_NMT* nmt, uint8_t nodeId);
 
 /// Called when the monitored node \a nodeId reports a new state (CONmtLastHbState() still returns the previous one), is
-/// back after it was missing, or has sent a boot-up message (CO_INIT). \a mode is CO_INVALID for a reserved state.
+/// back after it was missing, or has sent a boot-up message (CO_INIT). \a mode is CO_INVALID for reserved states;
+/// a change from one reserved state to another is not a new state.
 void CONmtHbConsChange(CO_NMT* nmt, uint8_t nodeId, CO_MODE mode);
 
 /// Called by life guarding when the NMT master is missing (\a occurred true), or is back (false).

@@ -265,8 +265,11 @@ TEST_CASE("heartbeat consumer: a heartbeat with a reserved state restarts the ti
   node.rx("705#11");
   node.after(99ms);
   node.told("");
-  node.rx("705#12");
-  node.told("5 INVALID");
+  node.rx("705#12");  // another reserved state: not a new state
+  node.told("");
+  node.after(99ms);
+  node.rx("705#05");
+  node.told("5 OPERATIONAL");
 }
 
 TEST_CASE("heartbeat consumer: reset node and reset communication restart it [D21] [T14] [Heartbeat 07]") {

@@ -19,9 +19,10 @@
 namespace co::heartbeat {
 namespace {
 
-// Values of CO_HBCONS.Tmr in place of the state byte that was received last.
-constexpr int16_t unheard = -1;  // no heartbeat since the entry was configured: the node is not monitored yet
-constexpr int16_t missing = -2;  // the time has elapsed without a heartbeat
+// Values of CO_HBCONS.Tmr.
+constexpr int16_t unheard = 0;  // no heartbeat since the entry was configured: the node is not monitored yet
+constexpr int16_t in_time = 1;
+constexpr int16_t missing = 2;  // the time has elapsed without a heartbeat
 
 constexpr bool is_active(uint16_t ms, uint8_t node_id) { return ms != 0 && node_id >= 1 && node_id <= 127; }
 
@@ -89,18 +90,17 @@ void check(void* node_pointer) {
   plan(node);
 }
 
-// Processes a state byte that differs from the previous one, or a boot-up message.
-void hear(CO_NODE& node, CO_HBCONS& cons, int16_t state) {
+// Processes the first heartbeat, a changed state, or a boot-up message.
+void hear(CO_NODE& node, CO_HBCONS& cons, CO_MODE mode) {
   const int16_t before = cons.Tmr;
-  cons.Tmr = state;
+  cons.Tmr = in_time;
   if (before == unheard) {
     plan(node);
   } else if (before == missing) {
     event::resolve(node, event::Fault::heartbeat, cons.NodeId);
   }
-  const CO_MODE mode = CONmtModeDecode(static_cast<uint8_t>(state));
   callback::change_heartbeat(node, cons.NodeId, mode);
-  if (cons.Tmr == state) {  // the callback has not changed the entry
+  if (cons.Tmr == in_time) {  // the callback has not changed the entry
     cons.State = mode;
   }
 }
@@ -227,11 +227,11 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   CO_ASSERT(number >= 1 && number <= CO_HBCONS_N);
   CO_HB_WATCH& watch = node.HbCons[number - 1];
   CO_ASSERT(watch.Cons != nullptr && watch.Period != 0);
-  const int16_t state = wire::state_of(frame);
+  const CO_MODE mode = CONmtModeDecode(wire::state_of(frame));
   watch.Seen = tmr::now(node);
   // CONmtHbConsChange() is called for changes of the state, and for each boot-up message.
-  if (state != watch.Cons->Tmr || state == wire::heartbeat_state(CO_INIT)) {
-    hear(node, *watch.Cons, state);
+  if (watch.Cons->Tmr != in_time || watch.Cons->State != mode || mode == CO_INIT) {
+    hear(node, *watch.Cons, mode);
   }
   return true;
 }
