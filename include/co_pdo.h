@@ -112,8 +112,11 @@ typedef struct CO_PDO_T {
   struct CO_NODE_T* Node;  ///< owner
   uint16_t Number;         ///< position in node.RPdo or node.TPdo
   uint8_t Type;            ///< transmission type
-  uint8_t Count;           ///< TPDO: SYNCs since the last transmission, or the SYNC start value until it is reached
-  CO_PDO_MAP Map;          ///< mapping and flags
+  union {
+    uint8_t Faults;  ///< RPDO: faults that are raised
+    uint8_t Count;   ///< TPDO: SYNCs since the last transmission, or the SYNC start value until it is reached
+  };
+  CO_PDO_MAP Map;  ///< mapping and flags
   union {
     uint32_t Deadline;    ///< RPDO: event time in ticks, 0: none
     uint32_t Identifier;  ///< TPDO: identifier of its frames

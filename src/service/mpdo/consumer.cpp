@@ -66,10 +66,10 @@ void write(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj, CO_IF_FRM& frame) {
 
 // Raises or resolves the fault that a frame names no object.
 void report_unknown(CO_RPDO& pdo, bool is_unknown) {
-  if (pdo::has(pdo.Map, pdo::unknown) == is_unknown) {
+  if (((pdo.Faults & pdo::unknown) != 0) == is_unknown) {
     return;
   }
-  pdo.Map.Flags ^= pdo::unknown;
+  pdo.Faults ^= pdo::unknown;
   const uint8_t detail = pdo::detail_of(pdo);
   is_unknown ? event::raise(*pdo.Node, Fault::pdo_unknown, detail)
              : event::resolve(*pdo.Node, Fault::pdo_unknown, detail);

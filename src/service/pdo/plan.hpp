@@ -19,7 +19,7 @@ enum class Direction : uint8_t { receive, transmit };
 // mapped object needs besides R or W: flag P if the network maps it, none if the designer does.
 enum class MappedBy : uint8_t { designer = 0, network = CO_OBJ____P__ };
 
-// Bits of CO_PDO_MAP.Flags; tpdo.cpp and rpdo.cpp define the others.
+// Bits of CO_PDO_MAP.Flags; tpdo.hpp defines those of a TPDO.
 constexpr uint8_t transferred = 0x40;  // sent or received since the application has read it
 constexpr uint8_t changed = 0x80;      // configure_changed() configures the PDO
 

@@ -30,15 +30,15 @@ static_assert(offsetof(CO_RPDO, Own.Data) % sizeof(Word) == 0);
 // Returns whether an RPDO is synchronous. Types 252 and 253 (remote requests) are not possible.
 bool is_synchronous(const CO_RPDO& pdo) { return USE_SYNC != 0 && pdo.Type <= last_synchronous_type; }
 
-// Faults of the flags from too_short to late.
-constexpr Fault faults[] = {Fault::pdo_short, Fault::pdo_long, Fault::pdo_timeout};
+// Faults of the bits from too_short to late.
+constexpr Fault fault_of_bit[] = {Fault::pdo_short, Fault::pdo_long, Fault::pdo_timeout};
 
 void on_deadline(void* pdo_pointer) { report(*static_cast<CO_RPDO*>(pdo_pointer), late, late); }
 
 // Returns false if the frame is too short. A longer frame is processed. [301:7.2.7.1 table 26]
 bool check_length(CO_RPDO& pdo, unsigned length) {
   const unsigned mapped = length_of(pdo.Map);
-  if (length == mapped && !has(pdo.Map, too_short | too_long)) {
+  if (length == mapped && (pdo.Faults & (too_short | too_long)) == 0) {
     return true;
   }
   if (length < mapped) {
@@ -101,15 +101,15 @@ uint8_t detail_of(const CO_RPDO& pdo) {
   return static_cast<uint8_t>(CO_RPDO_N < UINT8_MAX || number < UINT8_MAX ? number : UINT8_MAX);
 }
 
-void report(CO_RPDO& pdo, unsigned flags, unsigned is) {
-  unsigned flag = too_short;
-  for (const Fault fault : faults) {
-    if (((pdo.Map.Flags ^ is) & flags & flag) != 0) {
+void report(CO_RPDO& pdo, unsigned faults, unsigned is) {
+  unsigned bit = too_short;
+  for (const Fault fault : fault_of_bit) {
+    if (((pdo.Faults ^ is) & faults & bit) != 0) {
       const uint8_t detail = detail_of(pdo);
-      pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags ^ flag);
-      (is & flag) != 0 ? event::raise(*pdo.Node, fault, detail) : event::resolve(*pdo.Node, fault, detail);
+      pdo.Faults = static_cast<uint8_t>(pdo.Faults ^ bit);
+      (is & bit) != 0 ? event::raise(*pdo.Node, fault, detail) : event::resolve(*pdo.Node, fault, detail);
     }
-    flag <<= 1U;
+    bit <<= 1U;
   }
 }
 

@@ -7,12 +7,12 @@
 
 namespace co::pdo {
 
-// Bits of CO_PDO_MAP.Flags of an RPDO, in addition to those of plan.hpp.
-enum RpdoFlag : uint8_t {
-  too_short = 0x04,  // pdo_short is raised
-  too_long = 0x08,   // pdo_long is raised
-  late = 0x10,       // pdo_timeout is raised
-  unknown = 0x20,    // multiplex PDO: pdo_unknown is raised, because the frame names no object
+// Bits of CO_RPDO.Faults.
+enum RpdoFault : uint8_t {
+  too_short = 0x01,  // pdo_short is raised
+  too_long = 0x02,   // pdo_long is raised
+  late = 0x04,       // pdo_timeout is raised
+  unknown = 0x08,    // multiplex PDO: pdo_unknown is raised, because the frame names no object
 };
 
 // Returns whether the bit rate is being switched: RPDOs are ignored then.
@@ -23,9 +23,9 @@ enum RpdoFlag : uint8_t {
 // Returns the number of the PDO from 1 as detail of its faults (255 for all numbers above).
 [[nodiscard]] uint8_t detail_of(const CO_RPDO& pdo);
 
-// Raises or resolves the faults in flags, from too_short to late, so that those in is are raised and the others are
-// not. Each change is reported once.
-void report(CO_RPDO& pdo, unsigned flags, unsigned is);
+// Raises or resolves the given faults, from too_short to late, so that those in is are raised and the others are not.
+// Each change is reported once.
+void report(CO_RPDO& pdo, unsigned faults, unsigned is);
 
 // Restarts the deadline and resolves the fault of a missed one: a frame was received, or the deadline has changed.
 void restart_deadline(CO_RPDO& pdo);
