@@ -139,6 +139,13 @@ typedef struct CO_NODE_EXT_T {
   uint32_t SdoBufLen;             ///< bytes at CO_NODE_SPEC.SdoBuf (CO_SDO_BUFFER()); 0: unknown, not checked
 } CO_NODE_EXT;
 
+/// \cond internal
+typedef struct CO_REQUEST_T {  ///< access of an SDO server or client to an object, on the CPU's stack
+  CO_OBJ* Obj;                 ///< object; null: none yet
+  uint32_t Abort;              ///< abort code that COObjTypeUserSDOAbort() has set; 0: none
+} CO_REQUEST;
+/// \endcond
+
 /// A node. The application uses members as handles (&node.Dict, &node.Emcy, &node.Nmt, &node.Tmr, …), reads NodeId and
 /// Baudrate, and must not access any other member. Frequently used members come first, where small CPUs reach them with
 /// one instruction.
@@ -169,8 +176,8 @@ typedef struct CO_NODE_T {
 #endif
   CO_TX_QUEUE TxQueue;     ///< transmit queue
   CO_IF If;                ///< drivers, handle for co_if.h
-  CO_OBJ* RequestObj;      ///< object of the SDO request that is being processed; null: none
-  uint32_t UserAbort;      ///< abort code for that request, set by COObjTypeUserSDOAbort()
+  CO_REQUEST* Request;     ///< SDO request that is being processed; null: none
+  uint8_t* SdoBuf;         ///< CO_NODE_SPEC.SdoBuf
   enum CO_ERR_T Error;     ///< last error, for CONodeGetErr()
   CO_NODE_COUNTERS Count;  ///< counters, for CONodeGetCounters()
   CO_ROUTES Routes;        ///< routing table of received frames
@@ -178,7 +185,6 @@ typedef struct CO_NODE_T {
   CO_TMR Tmr;              ///< timers, handle for co_tmr.h
   uint32_t Baudrate;       ///< bit/s, present bit rate
   CO_SDO Sdo[CO_SSDO_N];   ///< SDO servers, 1200h + index
-  uint8_t* SdoBuf;         ///< CO_NODE_SPEC.SdoBuf
   CO_TMR_MEM SdoTmr;       ///< one time-out timer for all SDO servers
   CO_TMR_MEM HbProdTmr;    ///< heartbeat producer: period
 #if USE_CSDO

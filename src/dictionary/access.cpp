@@ -86,14 +86,16 @@ uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length) {
 }
 
 uint32_t abort_for(const CO_NODE& node, CO_ERR err) {
-  return node.UserAbort != no_abort ? node.UserAbort : abort_code(err);
+  CO_ASSERT(node.Request != nullptr);
+  const uint32_t abort = node.Request->Abort;
+  return abort != no_abort ? abort : abort_code(err);
 }
 
 uint32_t report_failure(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
   const uint32_t abort = abort_for(node, err);
   if (abort == CO_SDO_ERR_HW_ACCESS) {
-    const uint32_t key = node.RequestObj != nullptr ? node.RequestObj->Key : 0;
-    error::report(node, transfer == CO_OBJ_UPLOAD ? CO_ERR_SDO_READ : CO_ERR_SDO_WRITE, key);
+    CO_ASSERT(node.Request->Obj != nullptr);
+    error::report(node, transfer == CO_OBJ_UPLOAD ? CO_ERR_SDO_READ : CO_ERR_SDO_WRITE, node.Request->Obj->Key);
   }
   return abort;
 }
@@ -101,7 +103,7 @@ uint32_t report_failure(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
 }  // namespace co::access
 
 extern "C" void COObjTypeUserSDOAbort(CO_OBJ* obj, CO_NODE_T* node, uint32_t abort) {
-  if (obj != nullptr && node != nullptr && node->RequestObj == obj) {
-    node->UserAbort = abort;
+  if (node != nullptr && node->Request != nullptr && node->Request->Obj == obj) {
+    node->Request->Abort = abort;
   }
 }

@@ -20,31 +20,32 @@ namespace co::access {
   return obj.Type->Size(&obj, &node, width);
 }
 
-// Sets the object for which COObjTypeUserSDOAbort() is accepted (null: none), and clears the abort code that was set.
-inline void set_request_object(CO_NODE& node, CO_OBJ* obj) {
-  node.RequestObj = obj;
-  node.UserAbort = no_abort;
-}
-
-// Scope in which node.RequestObj is another object, or none; its end restores the object and its abort code. For an
-// access that begins in a type function of the object that is being accessed.
-class Nested {
+// Scope of a request to access an object: COObjTypeUserSDOAbort() is accepted for this object only (null: for none). A
+// request may begin in a type function of the object of another request, which continues at the end of the scope.
+class Request {
  public:
-  Nested(CO_NODE& node, CO_OBJ* obj) : node_(node), request_object_(node.RequestObj), abort_(node.UserAbort) {
-    set_request_object(node, obj);
+  Request(CO_NODE& node, CO_OBJ* obj) : node_(node), outer_(node.Request), request_{obj, no_abort} {
+    node.Request = &request_;
   }
-  ~Nested() {
-    node_.RequestObj = request_object_;
-    node_.UserAbort = abort_;
-  }
-  Nested(const Nested&) = delete;
-  Nested& operator=(const Nested&) = delete;
+  ~Request() { node_.Request = outer_; }
+  Request(const Request&) = delete;
+  Request& operator=(const Request&) = delete;
 
  private:
   CO_NODE& node_;
-  CO_OBJ* request_object_;
-  uint32_t abort_;
+  CO_REQUEST* outer_;
+  CO_REQUEST request_;
 };
+
+// Returns the object of the request that is being processed, or null.
+[[nodiscard]] inline CO_OBJ* requested_object(const CO_NODE& node) {
+  return node.Request != nullptr ? node.Request->Obj : nullptr;
+}
+
+// Returns the abort code that COObjTypeUserSDOAbort() has set for the request, or no_abort.
+[[nodiscard]] inline uint32_t user_abort(const CO_NODE& node) {
+  return node.Request != nullptr ? node.Request->Abort : no_abort;
+}
 
 // Open transfers ------------------------------------------------------------------------------------------------------
 // An SDO server channel (CO_SDO) whose Obj is not null has a transfer of this object open. Services and the OD access

@@ -62,7 +62,7 @@ ODR_t result_of(const CO_NODE& node, const CO_OBJ& obj, CO_ERR err) {
   if (err == CO_ERR_NONE) {
     return ODR_OK;
   }
-  return result_of(node.RequestObj == &obj ? access::abort_for(node, err) : abort_code(err));
+  return result_of(access::requested_object(node) == &obj ? access::abort_for(node, err) : abort_code(err));
 }
 
 }  // namespace co::od

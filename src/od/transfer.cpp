@@ -39,6 +39,18 @@ bool is_free(const CO_NODE& node, const OD_TRANSFER& transfer) {
          (!has(transfer, in_application) && !access::is_open(node, *transfer.Entry, nullptr));
 }
 
+// Returns the SDO transfer of an object at index that is being served, or null. The node, which may not be initialised
+// yet, is read only if there is a transfer.
+OD_TRANSFER* find_running(OD_t& od, uint16_t index) {
+  for (unsigned n = 0; n < application; ++n) {
+    OD_TRANSFER& transfer = od.Transfer[n];
+    if (is_extensible_of(od, index, transfer.Entry) && access::requested_object(*od.Node) == transfer.Entry) {
+      return &transfer;
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 void restart(OD_TRANSFER& transfer, OD_size_t length) {
@@ -51,7 +63,7 @@ void restart(OD_TRANSFER& transfer, OD_size_t length) {
 }
 
 bool is_called_by_transfer(const OD_t& od, const CO_NODE& node, const CO_OBJ& obj) {
-  if (node.RequestObj != &obj) {
+  if (access::requested_object(node) != &obj) {
     return false;
   }
   const unsigned n = first_of(od, obj);
@@ -103,8 +115,7 @@ void end_transfer(OD_TRANSFER& transfer) {
 
 void end_accesses(OD_t& od, uint16_t index) {
   CO_NODE& node = *od.Node;
-  CO_OBJ* const served = is_extensible_of(od, index, node.RequestObj) ? node.RequestObj : nullptr;
-  OD_TRANSFER* const running = served == nullptr ? nullptr : first_transfer(od, *served);
+  OD_TRANSFER* const running = find_running(od, index);
   if (running != nullptr) {
     set(*running, extension_changed);
   }
@@ -114,7 +125,7 @@ void end_accesses(OD_t& od, uint16_t index) {
     own = {};
   }
   access::end_transfers(node, [&](const CO_OBJ* obj) {
-    return (running == nullptr || obj != served) && is_extensible_of(od, index, obj);
+    return (running == nullptr || obj != running->Entry) && is_extensible_of(od, index, obj);
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/events.hpp"
 #include "dictionary/abort_code.hpp"
+#include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
 #include "dictionary/types/whole.hpp"
@@ -67,7 +68,8 @@ CO_ERR set_abort_code(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER 
     COObjTypeUserSDOAbort(&obj, &node, no_abort);
     return CO_ERR_NONE;
   }
-  if (node.UserAbort == no_abort || result_of(node.UserAbort) != result) {
+  const uint32_t abort = access::user_abort(node);
+  if (abort == no_abort || result_of(abort) != result) {
     COObjTypeUserSDOAbort(&obj, &node, OD_getSDOabCode(result));
   }
   return error_of(result, transfer);

@@ -8,6 +8,7 @@
 #include "base/events.hpp"
 #include "base/timer.hpp"
 #include "co_core.h"
+#include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/place.hpp"
 
@@ -148,7 +149,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t length) {
   const Outlet outlet = event::find_outlet(*node, *obj);
   uint8_t& character = *static_cast<uint8_t*>(buffer);
   settle(*output, outlet);
-  if (node->RequestObj != obj && output->Node == node) {
+  if (access::requested_object(*node) != obj && output->Node == node) {
     character = read_for_tpdo(*output, outlet);
     return CO_ERR_NONE;
   }

@@ -190,7 +190,7 @@ CO_ERR sample(CO_RECORDER& recorder) {
   const uint32_t bits = map & 0xFFU;
   const uint32_t above = wire::host_is_little_endian ? 0 : sizeof number - bits / 8;
   {
-    const access::Nested nested(node, nullptr);
+    const access::Request none(node, nullptr);
     err = obj::read(*obj, node, reinterpret_cast<uint8_t*>(&number) + above, bits / 8);
   }
   const int32_t value = extend(recorder, number, bits);

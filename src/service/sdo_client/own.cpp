@@ -108,18 +108,17 @@ uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
   return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : abort;
 }
 
-// Reads or writes the object. Returns an abort code. Nested, because a type function of another transfer may have
-// caused the call.
+// Reads or writes the object. Returns an abort code.
 uint32_t access_own(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
   const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
-  const access::Nested nested(node, nullptr);
+  const access::Request request(node, nullptr);
   CO_OBJ* const obj = dict::find(node, client.Key);
   const uint32_t abort = stream::check(node, client.Key, obj, direction);
   if (abort != no_abort) {
     return abort;
   }
-  node.RequestObj = obj;
+  node.Request->Obj = obj;
   const bool taken = obj::is_stream(*obj) && access::is_open(node, *obj, nullptr);
   return taken ? CO_SDO_ERR_TOS_STATE : transfer(client, *obj, direction);
 }

@@ -76,9 +76,10 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, 
   CO_NODE& node = *channel.Node;
   CO_ASSERT(state_of(channel) < State::count);
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
-  access::set_request_object(node, channel.Obj);
+  CO_REQUEST own = {channel.Obj, no_abort};
+  node.Request = &own;
   const uint32_t abort = service(channel, request, answer, found);
-  node.RequestObj = nullptr;
+  node.Request = nullptr;
   if (abort != no_abort) {
     abort_transfer(channel, abort);
   } else if (answer.DLC != 0) {

@@ -85,11 +85,11 @@ inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n)
   return err;
 }
 
-// Calls the type's End function. access::Nested, because the call may be caused by a type function of another transfer
-// that has changed the NMT state. Returns the error of End as abort code, if it is the end of a complete download.
+// Calls the type's End function, also after the request or without one (time-out). Returns the error of End as abort
+// code, if it is the end of a complete download.
 uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
   CO_NODE& node = *channel.Node;
-  const access::Nested nested(node, &obj);
+  const access::Request request(node, &obj);
   const CO_ERR err = obj::end(obj, node, direction_of(channel), code);
   const bool refused = err != CO_ERR_NONE && code == no_abort && has(channel, download);
   return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : no_abort;

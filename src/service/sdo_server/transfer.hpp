@@ -87,18 +87,17 @@ struct Opened {
 [[nodiscard]] uint32_t ask_application(CO_SDO& channel, const CO_IF_FRM& request);
 
 // Calls restart() and performs the checks at the begin of every transfer: object, access right, access hook. The object
-// becomes node.RequestObj. found: the object of the request, or null if it has to be found
+// becomes that of the request. found: the object of the request, or null if it has to be found
 [[nodiscard]] inline Opened open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer, CO_OBJ* found) {
   restart(channel, request);
   channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
   CO_NODE& node = *channel.Node;
   CO_OBJ* const obj = found != nullptr ? found : dict::find(node, channel.Key);
   Opened opened = {obj, stream::check(node, channel.Key, obj, transfer)};
-  node.RequestObj = opened.abort == no_abort ? obj : nullptr;
+  node.Request->Obj = obj;
   if constexpr (USE_ACCESS_HOOK != 0) {
     if (opened.abort == no_abort) {
       opened.abort = ask_application(channel, request);
-      node.RequestObj = opened.abort == no_abort ? obj : nullptr;
     }
   }
   return opened;
