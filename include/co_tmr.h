@@ -36,9 +36,9 @@ typedef struct CO_TMR_MEM_T {
   void* Para;                 ///< argument of Func
   uint32_t At;                ///< clock at expiry
   uint32_t Cycle;             ///< period in ticks; 0: runs once
-  uint16_t Id;      ///< timer of the pool: its number in the low bits, generation above
-  uint8_t Running;  ///< armed, or elapsed and still to be run
-  uint8_t Owner;    ///< 0: a module of the stack; 1: the pool; 2: SYNC or a PDO (CONodeRealTime())
+  uint16_t Id;                ///< timer of the pool: its number in the low bits, generation above
+  uint8_t Running;            ///< armed, or elapsed and still to be run
+  uint8_t Owner;              ///< 0: a module of the stack; 1: the pool; 2: SYNC or a PDO (CONodeRealTime())
 } CO_TMR_MEM;
 
 /// The timers of a node: &node.Tmr. The application must not access the members.
