@@ -159,7 +159,7 @@ typedef struct CO_NODE_T {
   uint8_t Burst;          ///< segments of block transfers sent in this call
   uint8_t NextSender;     ///< round-robin index: the block transfer that sends its next segment first
   uint8_t OdLocked;       ///< CO_NODE_EXT.OdLock is held
-  uint8_t IsTransmitOff;  ///< transmission is disabled while the bit rate is switched
+  uint8_t IsTransmitOff;  ///< transmission is disabled: the bit rate is switched, or CONodeStop() was called
   uint8_t WindowOver;     ///< the synchronous window has elapsed
 #if USE_REAL_TIME
   uint8_t IsNodeLocked;  ///< the node lock is held (CO_NODE_EXT.Enter)

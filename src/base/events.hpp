@@ -162,7 +162,14 @@ class Call {
   [[gnu::always_inline]] explicit Call(CO_NODE& node) : node_(node), before_(node.State) { node.State |= serving; }
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
-  [[gnu::always_inline]] ~Call() { end_call(node_, before_); }
+  [[gnu::always_inline]] ~Call() {
+    if constexpr (USE_FAST_PATHS != 0) {
+      node_.State &= static_cast<uint8_t>(before_ | ~serving);
+      run_deferred(node_);
+    } else {
+      end_call(node_, before_);
+    }
+  }
 
  private:
   CO_NODE& node_;

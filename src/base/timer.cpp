@@ -208,14 +208,14 @@ const CO_TMR_MEM& remove_first(CO_TMR& t) {
 }
 
 // Runs the action of an elapsed timer, and the work that it has deferred. The node works during the actions of the
-// stack's timers, not during those of the application.
-void run(CO_NODE& node, const CO_TMR_MEM& timer) {
-  const uint8_t before = node.State;
+// stack's timers, not during those of the application. kept: bit serving if the caller keeps the node working
+[[gnu::always_inline]] inline void run(CO_NODE& node, const CO_TMR_MEM& timer, unsigned kept) {
   if (!is_of(timer, Owner::pool)) {
-    node.State = static_cast<uint8_t>(before | event::serving);
+    node.State |= event::serving;
   }
   timer.Func(timer.Para);
-  event::end_call(node, before);
+  node.State = static_cast<uint8_t>((node.State & ~unsigned{event::serving}) | kept);
+  event::run_deferred(node);
 }
 
 #if USE_REAL_TIME
@@ -268,7 +268,7 @@ bool run_one(CO_TMR& t, Share share, const Span& span) {
     }
     timer = &remove_elapsed(t, *link);
   }
-  run(*t.Node, *timer);
+  run(*t.Node, *timer, share == Share::real_time ? unsigned{event::serving} : 0U);
   return true;
 }
 
@@ -425,7 +425,7 @@ void run_due(CO_TMR& timers) {
   const uint32_t first = timers.First->At;
   const uint32_t span = owner_of(first_armed(timers)).At - first;
   do {
-    run(*timers.Node, remove_first(timers));
+    run(*timers.Node, remove_first(timers), 0);
   } while (has_due(timers) && timers.First->At - first <= span);
 }
 

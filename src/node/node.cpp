@@ -473,10 +473,12 @@ void CONodeProcess(CO_NODE* node) {
   if constexpr (USE_REAL_TIME != 0) {
     node::run_deferred_of_mainline(*node);
   }
-  node->Burst = 0;
-  if (node->State == event::running && node::waits_to_send(*node)) {
-    node::resume_sending(*node);
-    node::run_deferred_of_mainline(*node);
+  if (node->State == event::running) {
+    node->Burst = 0;
+    if (node::waits_to_send(*node)) {
+      node::resume_sending(*node);
+      node::run_deferred_of_mainline(*node);
+    }
   }
   if (node->State != event::running) {
     node::drop_received(*node);

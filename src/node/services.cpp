@@ -465,6 +465,7 @@ void event::enter_requested_mode(CO_NODE& node) {
 void event::request_mode(CO_NODE& node, CO_MODE requested) {
   if (node.Nmt.Next != requested && node.Nmt.Next != CO_INVALID) {
     node.Nmt.Next = requested;
+    node.IsTransmitOff = requested == CO_INVALID ? 1 : node.IsTransmitOff;
     defer(node, mode);
   }
 }

@@ -38,8 +38,8 @@ void flush(CO_NODE& node);
 // TPDO maps the object.
 CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj);
 [[nodiscard]] event::Outlet find_outlet(CO_NODE& node, const CO_OBJ& obj);
-// Sends the marked TPDOs: part of the deferred work. Requests of callbacks and type functions are deferred. Returns the
-// last error. The caller ensures that a TPDO is marked and OdLock is not held.
+// Sends the marked TPDOs: part of the deferred work. Returns the last error. The caller ensures that a TPDO is marked,
+// OdLock is not held, and the node works.
 CO_ERR send_marked(CO_NODE& node);
 
 // Resolves all mappings again after CODictInit() has renumbered the entries.

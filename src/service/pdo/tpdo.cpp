@@ -359,8 +359,7 @@ CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
 // Changes by Read functions and callbacks of the PDOs are sent in a second round; changes in that round wait for the
 // next event.
 CO_ERR send_marked(CO_NODE& node) {
-  CO_ASSERT(node.OdLocked == 0);
-  const event::Serving serving(node);
+  CO_ASSERT(node.OdLocked == 0 && event::is_serving(node));
   const CO_ERR err = trigger_marked(node);
   if (!bits::is_empty(node.TPdoMarked)) {
     (void)trigger_marked(node);
