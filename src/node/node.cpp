@@ -473,16 +473,17 @@ void CONodeProcess(CO_NODE* node) {
   if constexpr (USE_REAL_TIME != 0) {
     node::run_deferred_of_mainline(*node);
   }
-  if (node->State == event::running) {
-    node->Burst = 0;
-    if (node::waits_to_send(*node)) {
-      node::resume_sending(*node);
-      node::run_deferred_of_mainline(*node);
-    }
-  }
   if (node->State != event::running) {
     node::drop_received(*node);
     return;
+  }
+  node->Burst = 0;
+  if (node::waits_to_send(*node)) {
+    node::resume_sending(*node);
+    node::run_deferred_of_mainline(*node);
+    if (node->State != event::running) {
+      return;
+    }
   }
   CO_IF_FRM frame = wire::empty_frame();
   if (!node::receive(*node, frame)) {
@@ -497,9 +498,6 @@ void CONodeProcess(CO_NODE* node) {
 void COTmrProcess(CO_TMR* tmr) {
   ASSERT_PTR_FATAL(tmr);
   ASSERT_PTR_FATAL(tmr->Node);
-  if (event::is_serving(*tmr->Node)) {
-    return;
-  }
   if (tmr::run_locked(*tmr, node::resume_sending_between_frames)) {
     return;
   }
@@ -509,7 +507,7 @@ void COTmrProcess(CO_TMR* tmr) {
   if (waits) {
     node::resume_sending_between_frames(node);
   }
-  if (!tmr::has_due(*tmr)) {
+  if (!tmr::has_due(*tmr) || event::is_serving(node)) {
     return;
   }
   if (!waits && node.State == event::running) {

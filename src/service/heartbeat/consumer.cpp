@@ -90,9 +90,13 @@ void check(void* node_pointer) {
   plan(node);
 }
 
-// Processes the first heartbeat, a changed state, or a boot-up message.
+// Processes the first heartbeat, a state that is another one or reserved, or a boot-up message. CONmtHbConsChange() is
+// called for changes of the state, and for each boot-up message.
 void hear(CO_NODE& node, CO_HBCONS& cons, CO_MODE mode) {
   const int16_t before = cons.Tmr;
+  if (before == in_time && mode == cons.State && mode != CO_INIT) {
+    return;
+  }
   cons.Tmr = in_time;
   if (before == unheard) {
     plan(node);
@@ -227,11 +231,10 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   CO_ASSERT(number >= 1 && number <= CO_HBCONS_N);
   CO_HB_WATCH& watch = node.HbCons[number - 1];
   CO_ASSERT(watch.Cons != nullptr && watch.Period != 0);
-  const CO_MODE mode = CONmtModeDecode(wire::state_of(frame));
+  const uint8_t state = wire::state_of(frame);
   watch.Seen = tmr::now(node);
-  // CONmtHbConsChange() is called for changes of the state, and for each boot-up message.
-  if (watch.Cons->Tmr != in_time || watch.Cons->State != mode || mode == CO_INIT) {
-    hear(node, *watch.Cons, mode);
+  if (watch.Cons->Tmr != in_time || wire::heartbeat_states[watch.Cons->State] != state || state == 0) {
+    hear(node, *watch.Cons, CONmtModeDecode(state));
   }
   return true;
 }

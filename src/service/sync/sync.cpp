@@ -50,7 +50,7 @@ void process(CO_NODE& node, uint8_t counter) {
   event::sync(node, counter);
 }
 
-// Sends a SYNC and processes it. Requests of callbacks are deferred until the SYNC was processed.
+// Sends a SYNC and processes it.
 void produce(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   CO_SYNC& sync = node.Sync;
@@ -59,7 +59,6 @@ void produce(void* node_pointer) {
   sync.Counter = static_cast<uint8_t>(sync.Counter + (counted ? 1 : 0));
   CO_IF_FRM frame = wire::empty_frame(sync.Identifier, counted ? 1 : 0);
   frame.Data[0] = sync.Counter;
-  const event::Serving serving(node);
   transmit::send_latest(node, frame);
   process(node, sync.Counter);
 }
