@@ -25,23 +25,11 @@ bool is_empty(const uint32_t (&set)[words]) {
   return all == 0;
 }
 
-// Returns how many of the lowest bits of a word are skipped: whole bytes of zeros, in a large set.
-template <bool is_large>
-[[gnu::always_inline]] inline unsigned skipped_bits(uint32_t word) {
-  unsigned bits = 0;
-  for (; is_large && word != 0 && (word & UINT8_MAX) == 0; word >>= 8) {
-    bits += 8;
-  }
-  return bits;
-}
-
 // Like for_each(), for one word of a set, whose lowest bit is that of number.
-template <bool is_large, class Function>
+template <class Function>
 [[gnu::always_inline]] inline void for_each_in(const uint32_t& word, unsigned number, Function function) {
-  const unsigned first = skipped_bits<is_large>(word);
-  uint32_t bit = uint32_t{1} << first;
-  number += first;
-  for (uint32_t rest = word >> first; rest != 0; rest >>= 1, bit <<= 1, ++number) {
+  uint32_t bit = 1;
+  for (uint32_t rest = word; rest != 0; rest >>= 1, bit <<= 1, ++number) {
     if ((rest & 1U) != 0 && (word & bit) != 0) {
       function(number);
     }
@@ -51,18 +39,18 @@ template <bool is_large, class Function>
 // Calls function(number) for each number in the set, in ascending order; one that is removed meanwhile is left out.
 template <unsigned words, class Function>
 [[gnu::always_inline]] inline void for_each(const uint32_t (&set)[words], Function function) {
-  for (const uint32_t& word : set) {
-    for_each_in<(words > 1)>(word, static_cast<unsigned>(&word - set) * 32, function);
+  for (unsigned n = 0; n != words; ++n) {
+    if (words == 1 || set[n] != 0) {
+      for_each_in(set[n], 32 * n, function);
+    }
   }
 }
 
 // Like take_each(), for one word of a set, whose lowest bit is that of number.
-template <bool is_large, class Function>
+template <class Function>
 [[gnu::always_inline]] inline void take_each_in(uint32_t& word, unsigned number, Function function) {
-  const unsigned first = skipped_bits<is_large>(word);
-  uint32_t rest = word >> first;
+  uint32_t rest = word;
   word = 0;
-  number += first;
   for (; rest != 0; rest >>= 1, ++number) {
     if ((rest & 1U) != 0) {
       function(number);
@@ -74,8 +62,10 @@ template <bool is_large, class Function>
 // removed meanwhile may be left out.
 template <unsigned words, class Function>
 [[gnu::always_inline]] inline void take_each(uint32_t (&set)[words], Function function) {
-  for (uint32_t& word : set) {
-    take_each_in<(words > 1)>(word, static_cast<unsigned>(&word - set) * 32, function);
+  for (unsigned n = 0; n != words; ++n) {
+    if (words == 1 || set[n] != 0) {
+      take_each_in(set[n], 32 * n, function);
+    }
   }
 }
 
