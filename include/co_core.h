@@ -161,6 +161,7 @@ typedef struct CO_NODE_T {
   uint8_t OdLocked;       ///< CO_NODE_EXT.OdLock is held
   uint8_t IsTransmitOff;  ///< transmission is disabled: the bit rate is switched, or CONodeStop() was called
   uint8_t WindowOver;     ///< the synchronous window has elapsed
+  uint8_t HasFresh;       ///< an RPDO has data for the next SYNC
 #if USE_REAL_TIME
   uint8_t IsNodeLocked;  ///< the node lock is held (CO_NODE_EXT.Enter)
 #endif

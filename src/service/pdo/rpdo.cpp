@@ -53,6 +53,7 @@ bool check_length(CO_RPDO& pdo, unsigned length) {
 void store_until_sync(CO_RPDO& pdo, const CO_IF_FRM& frame) {
   copy_data(pdo.Own.Data, frame.Data);
   bits::add(pdo.Node->RPdoFresh, pdo.Number);
+  pdo.Node->HasFresh = 1;
 }
 
 void write_and_mark(CO_NODE& node, CO_PDO_MAP& map, CO_IF_FRM& frame) {
@@ -68,7 +69,10 @@ void write_stored(CO_NODE& node, CO_RPDO& pdo) {
   write_and_mark(node, pdo.Map, frame);
 }
 
-void forget_stored(CO_NODE& node) { __builtin_memset(node.RPdoFresh, 0, sizeof node.RPdoFresh); }
+void forget_stored(CO_NODE& node) {
+  __builtin_memset(node.RPdoFresh, 0, sizeof node.RPdoFresh);
+  node.HasFresh = 0;
+}
 
 // Processes a frame. Returns false if it is too short.
 [[gnu::noinline]] bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
@@ -171,9 +175,10 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
 
 // Writes all synchronous RPDOs of one SYNC with OdLock held, then calls their callbacks.
 void apply(CO_NODE& node) {
-  if (bits::is_empty(node.RPdoFresh)) {
+  if (node.HasFresh == 0) {
     return;
   }
+  node.HasFresh = 0;
   if (is_switching(node)) {
     forget_stored(node);
     return;
