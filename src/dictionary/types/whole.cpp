@@ -68,10 +68,11 @@ CO_ERR pass_stream(CO_OBJ* source, CO_NODE* owner, CO_OBJ_READ_FUNC function, vo
 }
 
 CO_ERR access_whole(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes) {
-  if (is_stream(obj) && node.PassStream != nullptr) {
-    return node.PassStream(&obj, &node, function, data, bytes);
+  if (!is_stream(obj)) {
+    return function(&obj, &node, data, bytes);
   }
-  return pass_at_beginning(obj, node, function, data, bytes);
+  return node.PassStream != nullptr ? node.PassStream(&obj, &node, function, data, bytes)
+                                    : pass_at_beginning(obj, node, function, data, bytes);
 }
 
 }  // namespace co::obj
