@@ -184,7 +184,6 @@ typedef struct CO_NODE_T {
   CO_ROUTES Routes;        ///< routing table of received frames
   CO_DICT Dict;            ///< object dictionary, handle for co_dict.h
   CO_TMR Tmr;              ///< timers, handle for co_tmr.h
-  uint32_t Baudrate;       ///< bit/s, present bit rate
   CO_SDO Sdo[CO_SSDO_N];   ///< SDO servers, 1200h + index
   CO_TMR_MEM SdoTmr;       ///< one time-out timer for all SDO servers
   CO_TMR_MEM HbProdTmr;    ///< heartbeat producer: period
@@ -241,6 +240,7 @@ typedef struct CO_NODE_T {
 #endif
   CO_IF_FRM TxFrame[CO_TX_QUEUE_N];  ///< memory of TxQueue, if CO_NODE_EXT.TxQueue is null
   uint32_t ErrorKey;                 ///< key of the object that Error is about
+  uint32_t Baudrate;                 ///< bit/s, present bit rate
 #if CO_SRDO_N > 0
   CO_SRDO Srdo[CO_SRDO_N];  ///< SRDOs, 1301h + index
 #endif
