@@ -156,17 +156,17 @@ typedef struct CO_NODE_T {
   /// Block transfers are paused: they wait for the controller, or for the next call of CONodeProcess() or
   /// COTmrProcess().
   uint8_t Paused;
-  uint8_t Burst;          ///< segments of block transfers sent in this call
-  uint8_t NextSender;     ///< round-robin index: the block transfer that sends its next segment first
-  uint8_t OdLocked;       ///< CO_NODE_EXT.OdLock is held
-  uint8_t IsTransmitOff;  ///< transmission is disabled: the bit rate is switched, or CONodeStop() was called
-  uint8_t WindowOver;     ///< the synchronous window has elapsed
-  uint8_t HasFresh;       ///< an RPDO has data for the next SYNC
+  uint8_t Burst;        ///< segments of block transfers sent in this call
+  uint8_t NextSender;   ///< round-robin index: the block transfer that sends its next segment first
+  uint8_t OdLocked;     ///< CO_NODE_EXT.OdLock is held
+  uint8_t TransmitOff;  ///< bits: transmission is disabled, because the bit rate is switched or CONodeStop() was called
+  uint8_t WindowOver;   ///< the synchronous window has elapsed
+  uint8_t HasFresh;     ///< an RPDO has data for the next SYNC
 #if USE_REAL_TIME
   uint8_t IsNodeLocked;  ///< the node lock is held (CO_NODE_EXT.Enter)
 #endif
   CO_NMT Nmt;              ///< NMT slave, handle for co_nmt.h
-  const CO_NODE_EXT* Ext;  ///< settings of CONodeInitEx(), or defaults; not null
+  const CO_NODE_EXT* Ext;  ///< settings of CONodeInitEx(), or defaults; null: the node has no drivers
   /// Passes a stream to or from a PDO, and keeps the position of the application; null: the table has no stream of the
   /// library.
   enum CO_ERR_T (*PassStream)(CO_OBJ* obj, struct CO_NODE_T* node, CO_OBJ_READ_FUNC function, void* data,
@@ -277,8 +277,8 @@ void CONodeInitCtx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* e
 void CONodeStart(CO_NODE* node);
 
 /// Stops the timers of the stack and takes the controller off the bus; the node is in CO_INVALID until CONodeInit().
-/// In a callback or type function this happens where the outermost call ends, and the node's memory must be valid until
-/// then; no further frame is transmitted.
+/// In a callback or type function this happens where the outermost call ends: the node's memory must be valid, and
+/// CONodeInit() must not be called, until then. No further frame is transmitted.
 void CONodeStop(CO_NODE* node);
 
 /// Returns the last error and clears it. COErrName() and COErrText() (co_err.h) return its name and its meaning,

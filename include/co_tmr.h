@@ -94,7 +94,8 @@ int16_t COTmrService(CO_TMR* tmr);
 /// that COTmrProcess() is called cyclically, or whenever a cyclic COTmrService() returns 1. A firmware whose timer
 /// interrupt occurs only at the next expiry has to use CONodeNextDeadline(), because queued frames and segments do not
 /// start a timer.
-/// Has no effect in a callback or type function, except in actions of the application's timers.
+/// A call in a callback or type function has no effect, because the stack's timers do not run while the node works; a
+/// call in an action of the application's timers has. With CO_NODE_EXT.Mainline or Enter such calls are not permitted.
 void COTmrProcess(CO_TMR* tmr);
 
 /// Initialises the timers of a node; called by CONodeInit(). \a mem: \a num timers, owned by the caller, which must

@@ -36,6 +36,13 @@ class Serving {
   uint8_t before_;
 };
 
+// Reasons why transmission is disabled (bits of CO_NODE.TransmitOff).
+enum TransmitOff : uint8_t {
+  switching = 0x01,  // the LSS slave or master switches the bit rate
+  stopping = 0x02,   // CONodeStop() was called
+};
+inline void end_switching(CO_NODE& node) { node.TransmitOff = static_cast<uint8_t>(node.TransmitOff & stopping); }
+
 // Deferred work (bits of CO_NODE.Pending). It runs at the end of the API function that has caused it; if that was
 // called while the node works, where the outermost call ends. Order: configuration, EMCY messages, TPDOs, NMT state,
 // resets.
@@ -141,8 +148,8 @@ inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const 
 }
 
 // Runs deferred work, unless the node is working. Every API function that may cause deferred work ends with
-// run_deferred(), and so does each timer action. Where there is a real-time thread, the
-// work of the mainline (of_mainline) is left to CONodeProcess(), whichever thread has requested it.
+// run_deferred(), and so does each timer action. Where there is a real-time thread, the work of the mainline
+// (of_mainline) is left to CONodeProcess(), whichever thread has requested it.
 void run_all_deferred(CO_NODE& node);
 // Ends a Call. before: CO_NODE.State at its begin
 void end_call(CO_NODE& node, uint8_t before);

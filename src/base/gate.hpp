@@ -9,9 +9,7 @@
 
 namespace co::gate {
 
-// Calls a function of CO_NODE_EXT.Callbacks. Returns 0 if the function permits the access or does not exist. The
-// function may have called any API function: the node may be stopped or in another NMT state, and the dictionary may
-// have changed.
+// Calls a function of CO_NODE_EXT.Callbacks. Returns 0 if the function permits the access or does not exist.
 template <class Result, class Access>
 [[nodiscard]] inline Result ask(CO_NODE& node, Result (*CO_CALLBACKS::*hook)(CO_NODE*, void*, Access*),
                                 Access& access) {

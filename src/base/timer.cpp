@@ -432,7 +432,7 @@ void run_due(CO_TMR& timers) {
 #if USE_REAL_TIME
 bool run_locked(CO_TMR& timers, void (*before)(CO_NODE& node)) {
   const bool is_locked = has_turns(timers);
-  if (is_locked && !event::is_serving(*timers.Node)) {
+  if (is_locked) {
     run_in_turns(timers, before);
   }
   return is_locked;

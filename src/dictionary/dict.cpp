@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dictionary/dict.hpp"
 
+#include "base/events.hpp"
 #include "co_assert.h"
 #include "co_core.h"
 #include "dictionary/obj.hpp"
@@ -50,6 +51,7 @@ CO_ERR access_value(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
   if (dict == nullptr || dict->Node == nullptr || value == nullptr) {
     return CO_ERR_BAD_ARG;
   }
+  const event::Call call(*dict->Node);
   CO_OBJ* const found = find(*dict, key);
   if (found == nullptr) {
     return CO_ERR_OBJ_NOT_FOUND;

@@ -7,6 +7,9 @@
 namespace co::obj {
 
 CO_ERR write_for_application(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
+  if (!port::is_initialised(node)) {
+    return CO_ERR_BAD_ARG;
+  }
   const event::Call call(node);
   return write(obj, node, buffer, size);
 }
@@ -37,7 +40,11 @@ bool is_accessible(const CO_OBJ* obj, const CO_NODE_T* node) {
 extern "C" {
 
 uint32_t COObjGetSize(CO_OBJ* obj, CO_NODE_T* node, uint32_t width) {
-  return is_accessible(obj, node) ? obj::size(*obj, *node, width) : 0;
+  if (!is_accessible(obj, node)) {
+    return 0;
+  }
+  const event::Call call(*node);
+  return obj::size(*obj, *node, width);
 }
 
 CO_ERR COObjInit(CO_OBJ* obj, CO_NODE_T* node) {
@@ -58,15 +65,23 @@ CO_ERR COObjTypeExReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
 #endif
 
 CO_ERR COObjReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
-  return is_accessible(obj, node) ? obj::seek(*obj, *node, para) : CO_ERR_BAD_ARG;
+  if (!is_accessible(obj, node)) {
+    return CO_ERR_BAD_ARG;
+  }
+  const event::Call call(*node);
+  return obj::seek(*obj, *node, para);
 }
 
 CO_ERR COObjRdBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
-  return is_accessible(obj, node) && buffer != nullptr ? obj::read(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+  if (!is_accessible(obj, node) || buffer == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  const event::Call call(*node);
+  return obj::read(*obj, *node, buffer, size);
 }
 
 CO_ERR COObjWrBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
-  const bool is_ready = is_accessible(obj, node) && buffer != nullptr && port::is_initialised(*node);
+  const bool is_ready = is_accessible(obj, node) && buffer != nullptr;
   return is_ready ? obj::write_for_application(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
 }
 

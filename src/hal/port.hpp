@@ -7,8 +7,8 @@
 
 namespace co::port {
 
-// Returns whether the node has drivers: otherwise CONodeInit() was not called or has refused them, the node has no
-// extension either, and functions of the API have no effect.
+// Returns whether the node has drivers and an extension: otherwise CONodeInit() was not called or has refused the
+// drivers, and functions of the API have no effect.
 [[nodiscard]] inline bool is_initialised(const CO_NODE& node) { return node.Ext != nullptr; }
 
 #if USE_OD

@@ -38,7 +38,7 @@ void check_mandatory_objects(CO_NODE& node) {
 }
 
 // Runs the part of the initialisation that every NMT reset repeats, in CO_INIT. The caller keeps the node working, so
-// that requests of type functions and callbacks are deferred. Returns false if one of them stops the node.
+// that requests of type functions and callbacks are deferred. Returns false if one of them requests another state.
 [[nodiscard]] bool initialise(CO_NODE& node, CO_NMT_RESET type) {
   routes::clear(node);
   dict::set_power_on_values(node, type);
@@ -113,7 +113,7 @@ void run_pending(CO_NODE& node, unsigned what) {
     }
     const event::Serving serving(node);
     event::remove(node, pending & ~unsigned{event::messages | event::mode});
-    if ((pending & event::configure) != 0 && (pending & event::resets) == 0) {
+    if ((pending & event::configure) != 0 && (pending & event::resets) == 0 && node.Nmt.Next != CO_INVALID) {
       services::configure(node);
       routes::publish(node);
     }
@@ -232,6 +232,7 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT* ext) 
 #if USE_REAL_TIME
 void run_deferred_of_mainline(CO_NODE& node) {
   if ((node.Pending & event::overrun) != 0) {
+    const event::Serving serving(node);
     event::remove(node, event::overrun);
     report(node, CO_CAN_OVERRUN);
   }
@@ -419,13 +420,15 @@ void node::init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext,
     error::report(*node, CO_ERR_DICT_INIT, dict::fault_key_of(node->Dict));
     return;
   }
+  bool is_entered = false;
   bool initialised = false;
   {
     const event::Serving serving(*node);
     node->Nmt.Next = CO_INIT;
     event::defer(*node, event::mode);
     event::enter_requested_mode(*node);
-    initialised = node->Nmt.Mode == CO_INIT && initialise(*node, CO_RESET_NODE);
+    is_entered = node->Nmt.Mode == CO_INIT;
+    initialised = is_entered && initialise(*node, CO_RESET_NODE);
     event::forget_resets(*node);
   }
   if (dict::stops_node(node->Dict)) {
@@ -435,6 +438,9 @@ void node::init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext,
   if (dict::stops_node(node->Dict)) {
     error::report(*node, CO_ERR_DICT_INIT, dict::fault_key_of(node->Dict));
     return;
+  }
+  if (!is_entered) {  // CONmtModeChange() has stopped the node
+    port::can_close(*node);
   }
   if (!initialised) {
     return;
@@ -489,7 +495,7 @@ void CONodeProcess(CO_NODE* node) {
   if (!node::receive(*node, frame)) {
     return;
   }
-  node->State = event::running | event::serving;
+  node->State |= event::serving;
   node::dispatch(*node, frame);
   node->State &= static_cast<uint8_t>(~event::serving);
   node::run_deferred_of_mainline(*node);
@@ -530,11 +536,12 @@ void CONodeRealTime(CO_NODE* node) {
     node::drop_received(*node);
     return;
   }
+  const unsigned ends = node->State == event::running ? unsigned{event::mode} : 0U;  // else the mainline enters it
   {
     const event::Serving serving(*node);
     transmit::flush(*node);
     CO_IF_FRM frame = wire::empty_frame();
-    while ((node->Pending & event::mode) == 0 && receive::read(*node, frame) > 0) {
+    while ((node->Pending & ends) == 0 && receive::read(*node, frame) > 0) {
       count(node->Count.Received);
       node::share_out(*node, frame);
       event::send_deferred(*node);
@@ -568,8 +575,8 @@ uint32_t CONodeNextDeadline(CO_NODE* node) {
 void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event) {
   ASSERT_PTR_FATAL(node);
   if (event < CO_CAN_EVENT_NUM && port::is_initialised(*node)) {
+    const event::Call call(*node);
     node::report(*node, event);
-    event::run_deferred(*node);
   }
 }
 

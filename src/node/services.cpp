@@ -430,6 +430,7 @@ void enter(CO_NODE& node, CO_MODE mode) {
     transmit::clear(node);
     node.Paused = 0;
     node.Pending = 0;
+    node.TransmitOff = 0;
     port::can_close(node);
   }
 }
@@ -465,7 +466,7 @@ void event::enter_requested_mode(CO_NODE& node) {
 void event::request_mode(CO_NODE& node, CO_MODE requested) {
   if (node.Nmt.Next != requested && node.Nmt.Next != CO_INVALID) {
     node.Nmt.Next = requested;
-    node.IsTransmitOff = requested == CO_INVALID ? 1 : node.IsTransmitOff;
+    node.TransmitOff = requested == CO_INVALID ? uint8_t{stopping} : node.TransmitOff;
     defer(node, mode);
   }
 }

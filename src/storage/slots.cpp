@@ -217,9 +217,9 @@ struct Slots {
 };
 
 // Returns whether the other slot is damaged and was written after the newest valid one, so that its data are lost. A
-// slot whose store was interrupted by a power failure does not count: its header is erased (Found::blank), or still
-// that of its previous record, whose generation is one lower than that of the newest valid slot. A header that cannot
-// be read does count.
+// slot whose store was interrupted before its header was written does not count: the header is erased (Found::blank),
+// or still that of its previous record, whose generation is one lower than that of the newest valid slot. A header that
+// cannot be read, or was written in part, does count.
 bool is_newest_damaged(const Slots& slots) {
   const Header& header = slots.other->header;
   const bool is_unread = header.magic == 0;
@@ -242,7 +242,11 @@ struct Remembered {
   unsigned shift;
 };
 
+// Group 0 is remembered by none, because several records may have it.
 void remember(const Region& region, const Slot& slot) {
+  if (region.record.group == 0) {
+    return;
+  }
   const Remembered at(region);
   const unsigned number = slot.start == region.record.start ? 1 : 2;
   const unsigned others = at.byte & ~(3U << at.shift);

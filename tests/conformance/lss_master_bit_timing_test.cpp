@@ -115,6 +115,20 @@ TEST_CASE("LSS master: activate bit timing that is cancelled: the node sends aga
   CHECK(node.can.baud == 250000);
 }
 
+TEST_CASE("LSS master: activate bit timing that is cancelled in a callback after CONodeStop(): nothing is sent") {
+  Fixture node;
+  CHECK(COLssmActivateBitTiming(&node->Lssm, 100, 250000, [](CO_LSSM*, CO_LSSM_RESULT) {}) == CO_ERR_NONE);
+  node.frames();
+  callbacks().can_receive = [&](CO_IF_FRM* frm) {
+    CONodeStop(&node.node);
+    CHECK(COLssmCancel(&node->Lssm) == CO_ERR_NONE);
+    (void)COIfCanSend(&node->If, frm);
+  };
+  node.rx("222#00");
+  node.silent();
+  CHECK(node.mode() == CO_INVALID);
+}
+
 TEST_CASE("LSS master: activate bit timing does not start while frames are queued for the controller") {
   LssMaster node;
   node.can.refuse_all();

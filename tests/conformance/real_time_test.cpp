@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // CONodeRealTime(): SYNC and PDOs in one thread, all other services in another.
+#include <utility>
+
+#include "support/failing_nvm.hpp"
 #include "support/real_time_fixture.hpp"
 
 #if USE_REAL_TIME && USE_SYNC && CO_TPDO_N > 0 && CO_RPDO_N > 0
@@ -573,6 +576,40 @@ TEST_CASE("real time: without a ring CONodeRealTime does nothing and CONodeProce
   node.tx("181#31");
   node.after(5ms);
   node.tx("181#31");
+}
+
+// Memory driver ------------------------------------------------------------------------------------------------------
+
+std::function<void()> during_write;
+
+TEST_CASE("real time: a state that is requested while the memory is written does not stop the reception of SYNC") {
+  FailingNvm memory{{512, 4, 64}};
+  CO_IF_NVM_DRV_EX driver = FailingNvm::driver;
+  driver.Write = [](void* context, std::uint32_t start, const std::uint8_t* bytes, std::uint32_t size) {
+    if (const auto action = std::exchange(during_write, nullptr)) action();
+    return FailingNvm::driver.Write(context, start, bytes, size);
+  };
+  static std::uint32_t values[2] = {1, 2};
+  CO_PARA group = {0,       sizeof values, reinterpret_cast<std::uint8_t*>(values), nullptr, CO_RESET_NODE,
+                   nullptr, CO_PARA___E};
+  RealTimeNode node({}, [&](Setup& setup) {
+    setup.nvm(driver, &memory).with({CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, CO_DATA(&group)});
+  });
+  node.start();
+  std::size_t left = 99;
+  during_write = [&] {
+    CONmtSetMode(&node->Nmt, CO_PREOP);
+    node.can.to_node.push_back(frame("080#"));
+    node.can.to_node.push_back(frame("080#"));
+    CONodeRealTime(&node.node);
+    left = node.can.to_node.size();
+  };
+  node.arrive("601#2310100173617665");
+  node.real_time();
+  node.mainline();
+  CHECK(left == 0);
+  CHECK(node.mode() == CO_PREOP);
+  node.frames();
 }
 
 }  // namespace

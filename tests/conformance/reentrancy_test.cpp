@@ -497,4 +497,64 @@ TEST_CASE("re-entrancy: after CODictInit() PDOs use the objects of the new table
 
 #endif
 
+// Requests of callbacks at the begin and the end of a node ------------------------------------------------------------
+
+TEST_CASE("re-entrancy: CONmtSetMode in CONmtModeChange of the boot-up sends one boot-up message [N1]") {
+  Fixture node(scripted());
+  callbacks().mode_change = [](CO_NMT* nmt, CO_MODE mode) {
+    if (mode == CO_PREOP) CONmtSetMode(nmt, CO_OPERATIONAL);
+  };
+  node.rx("000#8201");
+  node.tx("701#00");
+  CHECK(node.mode() == CO_OPERATIONAL);
+}
+
+TEST_CASE("re-entrancy: a reaction of 1029h in CONmtModeChange of a reset does not end the reset") {
+  for (const bool by_bus_off : {false, true}) {
+    CAPTURE(by_bus_off);
+    Fixture node(scripted());
+    node.rx("000#0101");
+    callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
+      if (mode != CO_INIT) return;
+      by_bus_off ? CONodeCanEvent(nmt->Node, CO_CAN_BUS_OFF) : static_cast<void>(COErrorBehaviour(nmt->Node, 1));
+    };
+    script.inits = 0;
+    node.rx("000#8101");
+    CHECK(script.inits == 1);
+    CHECK(node.frames().front() == "701#00");
+  }
+}
+
+TEST_CASE("re-entrancy: a Read function that the application calls changes neither NMT state nor table at once") {
+  Fixture node(scripted());
+  CO_MODE inside = CO_INVALID;
+  std::int16_t replaced = 0;
+  script.on_read = [&](CO_NODE* of) {
+    CONmtSetMode(&of->Nmt, CO_OPERATIONAL);
+    inside = of->Nmt.Mode;
+    replaced = CODictInit(&of->Dict, of, of->Dict.Root, of->Dict.Num);
+  };
+  node.call([&] {
+    std::uint8_t bytes[8];
+    CHECK(CODictRdBuffer(&node->Dict, CO_DEV(0x3001, 0), bytes, 8) == CO_ERR_NONE);
+  });
+  CHECK(inside == CO_PREOP);
+  CHECK(replaced == -1);
+  CHECK(node.mode() == CO_OPERATIONAL);
+}
+
+TEST_CASE("re-entrancy: a reset that CONodeCanChange requests runs after it") {
+  Fixture node(scripted());
+  unsigned inits = 99;
+  script.inits = 0;
+  callbacks().can_change = [&](CO_NODE* of, CO_CAN_EVENT) {
+    CONmtReset(&of->Nmt, CO_RESET_NODE);
+    inits = script.inits;
+  };
+  node.call([&] { CONodeCanEvent(&node.node, CO_CAN_PASSIVE); });
+  CHECK(inits == 0);
+  CHECK(script.inits == 1);
+  node.frames();
+}
+
 }  // namespace

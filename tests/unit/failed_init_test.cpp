@@ -187,6 +187,32 @@ TEST_CASE("failed initialisation: the dictionary can be read") {
   });
 }
 
+TEST_CASE("failed initialisation: a table that CODictInit() sets can be read, not written") {
+  for (const Failure& failure : failures()) {
+    if (failure.has_drivers) continue;
+    CAPTURE(failure.name);
+    Device device;
+    failure.cause(device);
+    CHECK(device.init() == failure.error);
+    static std::uint8_t error_register = 0;
+    static std::uint32_t value = 5;
+    static CO_OBJ table[] = {{CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, CO_DATA(&error_register)},
+                             {CO_KEY(0x3000, 0, CO_OBJ_____RW), CO_TUNSIGNED32, CO_DATA(&value)}};
+    CHECK(CODictInit(&device.node.Dict, &device.node, table, 2) == 2);
+    std::uint32_t read = 0;
+    CHECK(CODictRdLong(&device.node.Dict, CO_DEV(0x3000, 0), &read) == CO_ERR_NONE);
+    CHECK(CODictWrLong(&device.node.Dict, CO_DEV(0x3000, 0), 1) == CO_ERR_BAD_ARG);
+#if CO_HBCONS_N > 0
+    static CO_HBCONS consumer = {};
+    consumer.Node = &device.node;
+    CHECK(CONmtHbConsActivate(&consumer, 100, 5) == CO_ERR_BAD_ARG);
+#endif
+#if USE_EMCY
+    COEmcySet(&device.node.Emcy, 0, nullptr);
+#endif
+  }
+}
+
 TEST_CASE("failed initialisation: resets and changes of the mode are refused") {
   with_each_failure([](CO_NODE& node) {
     unsigned changes = 0;

@@ -13,8 +13,7 @@ namespace co::cob_id {
 [[nodiscard]] bool is_free(uint32_t cob_id);
 
 // Returns whether most objects permit a value: one with bit 31 set (not valid) may always be written; a valid COB-ID
-// only if it is
-// unchanged, or if the COB-ID before is not valid and is_free() permits the CAN-ID.
+// only if it is unchanged, or if the COB-ID before is not valid and is_free() permits the CAN-ID.
 [[nodiscard]] bool may_replace(uint32_t before, uint32_t value);
 
 }  // namespace co::cob_id

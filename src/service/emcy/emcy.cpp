@@ -136,7 +136,7 @@ void post(CO_NODE& node, CO_EMCY_MSG msg) {
 
 // Ends an API function: sends its messages, also in a callback, before the TPDOs that the application requests then.
 void finish_call(CO_NODE& node) {
-  if ((node.Pending & event::send_emcy) != 0) {
+  if ((node.Pending & event::send_emcy) != 0 && port::is_initialised(node)) {
     send_queued(node);
   }
   event::run_deferred(node);

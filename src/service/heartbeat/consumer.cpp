@@ -11,6 +11,7 @@
 #include "dictionary/dict.hpp"
 #include "dictionary/types/integer.hpp"
 #include "dictionary/types/place.hpp"
+#include "hal/port.hpp"
 #include "service/heartbeat/heartbeat.hpp"
 #include "wire/nmt.hpp"
 
@@ -250,9 +251,12 @@ const CO_OBJ_TYPE COTNmtHbCons = {heartbeat::size, heartbeat::init, heartbeat::r
 CO_ERR CONmtHbConsActivate(CO_HBCONS* hbc, uint16_t time, uint8_t nodeid) {
   ASSERT_PTR_ERR(hbc, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(hbc->Node, CO_ERR_BAD_ARG);
-  const CO_ERR err = heartbeat::change(*hbc->Node, *hbc, time, nodeid);
-  event::run_deferred(*hbc->Node);
-  return err;
+  CO_NODE& node = *hbc->Node;
+  if (!port::is_initialised(node)) {
+    return CO_ERR_BAD_ARG;
+  }
+  const event::Call call(node);
+  return heartbeat::change(node, *hbc, time, nodeid);
 }
 
 int16_t CONmtGetHbEvents(CO_NMT* nmt, uint8_t nodeId) {

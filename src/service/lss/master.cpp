@@ -3,6 +3,7 @@
 
 #if USE_LSS_MASTER
 
+#include "base/events.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
@@ -66,7 +67,9 @@ void enter_state(CO_LSSM& master, State state) {
 // Ends the service and calls its callback. Must be the last action: the callback may start the next service.
 void finish(CO_LSSM& master, CO_LSSM_RESULT result) {
   CO_NODE& node = *master.Node;
-  node.IsTransmitOff = is_switching(master) ? 0 : node.IsTransmitOff;
+  if (is_switching(master)) {
+    event::end_switching(node);
+  }
   tmr::stop(node, master.Tmr);
   set_state(master, State::idle);
   master.Call(&master, result);
@@ -186,7 +189,9 @@ CO_ERR activate(CO_LSSM& master, CO_LSSM_CALLBACK callback, uint32_t delay) {
     set_state(master, State::idle);
     err = CO_ERR_IF_CAN_SEND;
   }
-  node.IsTransmitOff = err == CO_ERR_NONE ? 1 : node.IsTransmitOff;
+  if (err == CO_ERR_NONE) {
+    node.TransmitOff |= event::switching;
+  }
   return err;
 }
 

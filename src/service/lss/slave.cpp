@@ -38,12 +38,9 @@ bool is_unconfigured(const CO_NODE& node) { return node.NodeId == wire::no_node_
 constexpr uint32_t key_of(unsigned part) { return CO_DEV(0x1018, part + 1U); }
 uint32_t part_of(CO_NODE& node, unsigned part) { return dict::read_number(node, key_of(part), sizeof(uint32_t), 0); }
 
-// Sends a frame. An unconfigured node is in Initialisation and sends nothing else. A callback may have stopped the
-// node.
+// Sends a frame. An unconfigured node is in Initialisation and sends nothing else.
 void send(CO_NODE& node, const CO_IF_FRM& frame) {
-  if (event::is_allowed(node, CO_LSS_ALLOWED)) {
-    node.Nmt.Mode == CO_INIT ? transmit::send_ahead(node, frame) : static_cast<void>(transmit::send(node, frame));
-  }
+  node.Nmt.Mode == CO_INIT ? transmit::send_ahead(node, frame) : static_cast<void>(transmit::send(node, frame));
 }
 
 void answer(CO_NODE& node, Lss command) {
@@ -82,7 +79,7 @@ struct Change {
 uint32_t ask_application([[maybe_unused]] CO_NODE& node, [[maybe_unused]] CO_ACCESS_LSS& access) {
 #if USE_ACCESS_HOOK
   const uint8_t error = gate::ask(node, &CO_CALLBACKS::AccessLss, access);
-  const bool is_stopped = !event::is_allowed(node, CO_LSS_ALLOWED);
+  const bool is_stopped = node.Nmt.Next == CO_INVALID;
   return error == manufacturers_error || is_stopped ? manufacturers_error | uint32_t{access.Specific} << 8 : error;
 #else
   return 0;
@@ -147,7 +144,7 @@ void configure_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
 
 void end_switch(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
-  node.IsTransmitOff = 0;
+  event::end_switching(node);
   transmit::flush(node);
 }
 
@@ -173,7 +170,7 @@ bool prepare_switch(CO_NODE& node, CO_MODE mode) {
     event::request_mode(node, mode);
     event::enter_requested_mode(node);
   }
-  return event::is_allowed(node, CO_LSS_ALLOWED);
+  return node.Nmt.Next != CO_INVALID;
 }
 
 // Activates the bit rate: disables transmission, switches after the delay, and enables transmission after another
@@ -191,7 +188,7 @@ void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   const uint32_t ticks = tmr::ticks(node, delay, CO_TMR_UNIT_1MS);
   node.Lss.Delay = delay != 0 && ticks == 0 ? UINT32_MAX : ticks;
   node.Baudrate = node.Lss.CfgBaudrate;  // kept by CO_NODE.Baudrate, because a reset may load other values meanwhile
-  node.IsTransmitOff = 1;
+  node.TransmitOff |= event::switching;
   call_after_delay(node, switch_rate);
 }
 
@@ -385,7 +382,6 @@ void init(CO_NODE& node) {
 void on_mode(CO_NODE& node) {
   if (node.Nmt.Mode == CO_INVALID) {
     tmr::stop(node, node.Lss.Tmr);
-    node.IsTransmitOff = 0;
   }
 }
 
@@ -393,7 +389,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   if (frame.DLC != wire::lss_dlc) {
     return false;
   }
-  if (node.IsTransmitOff == 0 && is_served(node)) {
+  if (node.TransmitOff == 0 && is_served(node)) {
     serve(node, frame);
   }
   return true;

@@ -19,7 +19,7 @@ uint8_t behaviour_for(CO_NODE& node, uint8_t sub) {
 }  // namespace
 
 bool react(CO_NODE& node, uint8_t sub) {
-  if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
+  if (!event::is_allowed(node, CO_NMT_ALLOWED) || node.Nmt.Next == CO_INIT) {
     return false;
   }
   const uint8_t behaviour = behaviour_for(node, sub);

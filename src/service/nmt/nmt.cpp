@@ -115,7 +115,7 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
     error::report(node, CO_ERR_NMT_MODE);
     return;
   }
-  if (nmt->Mode == CO_INIT) {
+  if (nmt->Mode == CO_INIT && nmt->Next == CO_INIT) {
     nmt::boot(node);
     event::run_deferred(node);
   }
