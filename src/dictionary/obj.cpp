@@ -7,11 +7,7 @@
 namespace co::obj {
 
 CO_ERR write_for_application(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
-  if (!port::is_initialised(node)) {
-    return CO_ERR_BAD_ARG;
-  }
-  const event::Call call(node);
-  return write(obj, node, buffer, size);
+  return port::is_initialised(node) ? write(obj, node, buffer, size) : CO_ERR_BAD_ARG;
 }
 
 CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t size) {
@@ -81,8 +77,11 @@ CO_ERR COObjRdBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t si
 }
 
 CO_ERR COObjWrBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
-  const bool is_ready = is_accessible(obj, node) && buffer != nullptr;
-  return is_ready ? obj::write_for_application(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+  if (!is_accessible(obj, node) || buffer == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  const event::Call call(*node);
+  return obj::write_for_application(*obj, *node, buffer, size);
 }
 
 CO_ERR COObjRdValue(CO_OBJ* obj, CO_NODE_T* node, void* value, uint8_t width) {

@@ -19,7 +19,7 @@ namespace co::obj {
 [[nodiscard]] inline CO_ERR write(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
   return obj.Type->Write == nullptr ? CO_ERR_OBJ_ACC : obj.Type->Write(&obj, &node, buffer, size);
 }
-// Like write(), then runs deferred work: for API functions.
+// Like write(), for API functions: a node without drivers is refused.
 [[nodiscard]] CO_ERR write_for_application(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size);
 // Sets the position of a stream; no effect on a value.
 [[nodiscard]] inline CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position) {
