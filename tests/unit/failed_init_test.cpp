@@ -199,8 +199,8 @@ TEST_CASE("failed initialisation: a table that CODictInit() sets can be read, no
     static CO_OBJ table[] = {{CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, CO_DATA(&error_register)},
                              {CO_KEY(0x3000, 0, CO_OBJ_____RW), CO_TUNSIGNED32, CO_DATA(&value)}};
     CHECK(CODictInit(&device.node.Dict, &device.node, table, 2) == 2);
-    std::uint32_t read = 0;
-    CHECK(CODictRdLong(&device.node.Dict, CO_DEV(0x3000, 0), &read) == CO_ERR_NONE);
+    std::uint32_t copy = 0;
+    CHECK(CODictRdLong(&device.node.Dict, CO_DEV(0x3000, 0), &copy) == CO_ERR_NONE);
     CHECK(CODictWrLong(&device.node.Dict, CO_DEV(0x3000, 0), 1) == CO_ERR_BAD_ARG);
 #if CO_HBCONS_N > 0
     static CO_HBCONS consumer = {};
