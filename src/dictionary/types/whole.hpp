@@ -12,6 +12,6 @@ namespace co::obj {
 // Like access_whole(), for a stream: an access of the application with COObjRdBufCont() or COObjWrBufCont(), to this
 // stream or to another extended stream, keeps its position. Value of CO_NODE.PassStream, which the Init functions of
 // the library's streams set, so that only programs with such streams link it.
-CO_ERR pass_stream(CO_OBJ* obj, CO_NODE_T* node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes);
+CO_ERR pass_stream(CO_OBJ* source, CO_NODE_T* owner, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes);
 
 }  // namespace co::obj
