@@ -173,8 +173,8 @@ CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 ///
 /// \retval 0…32767  number of entries (32767 if there are more)
 /// \retval -1       an argument is null, \a max is 0, or the table has a structural fault, which CODictGetFault()
-///                  returns; lookups then find no entry
-/// \retval -1       called in a callback or type function (node error CO_ERR_DICT_BUSY); the table is unchanged
+///                  returns: lookups then find no entry; or the call was in a callback or type function (node error
+///                  CO_ERR_DICT_BUSY): the table is unchanged
 int16_t CODictInit(CO_DICT* cod, struct CO_NODE_T* node, CO_OBJ* root, uint16_t max);
 
 /// Calls the Init function of every entry, in the order of the table.

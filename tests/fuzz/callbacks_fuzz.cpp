@@ -329,6 +329,11 @@ class Bench {
 
   // Replaces the table, or changes it at its place.
   void replace_table() {
+    if ((node_.State & 2) != 0) {  // the node works
+      const auto all = static_cast<std::uint16_t>(full_.size());
+      require(CODictInit(&node_.Dict, &node_, full_.data(), all) == -1, "no table is replaced while the node works");
+      return;
+    }
     const unsigned how = below(7);
     const std::size_t place = input_.word() % all_.size();
     if (types_ != 0) {
