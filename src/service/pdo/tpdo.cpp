@@ -160,14 +160,22 @@ bool has_counter([[maybe_unused]] const CO_NODE& node) {
 #endif
 }
 
+// Returns whether the PDO ignores this SYNC: it has a start value, and the SYNC has a wrong length or comes before the
+// one with that value.
+bool ignores(const CO_TPDO& pdo, uint8_t counter) {
+  if (!has_counter(*pdo.Node)) {
+    return false;
+  }
+  return counter == 0 ? start_value(*pdo.Node, pdo.Number) != 0 : has(pdo.Map, waiting) && counter != pdo.Count;
+}
+
 // Counts a SYNC. Returns whether the PDO is sent with it. The SYNC with the start value counts as the first one.
 // [301:7.5.2.37]
 bool count_sync(CO_TPDO& pdo, uint8_t counter) {
-  const bool is_waiting = has(pdo.Map, waiting);
-  if (has(pdo.Map, starts) && has_counter(*pdo.Node) && (counter == 0 || (is_waiting && counter != pdo.Count))) {
+  if (ignores(pdo, counter)) {
     return false;
   }
-  if (is_waiting) {
+  if (has(pdo.Map, waiting)) {
     clear(pdo.Map, waiting);
     pdo.Count = 0;
   }
@@ -185,8 +193,8 @@ bool count_sync(CO_TPDO& pdo, uint8_t counter) {
 
 // Processes a SYNC. Changes of mapped objects by their Read functions trigger no further transmission of this PDO.
 void process_sync(CO_TPDO& pdo, uint8_t counter) {
-  const bool is_due = count_sync(pdo, counter);
   clear(pdo.Map, sampled);
+  const bool is_due = count_sync(pdo, counter);
   if (!is_due && !keeps_sample(pdo)) {
     return;
   }
@@ -235,7 +243,7 @@ void begin(CO_TPDO& pdo) {
     }
   } else if (USE_SYNC != 0) {
     pdo.Count = start_value(*pdo.Node, pdo.Number);
-    set(pdo.Map, (pdo.Count != 0 ? starts | waiting : 0) | (pdo.Type == type_acyclic ? pending : 0));
+    set(pdo.Map, (pdo.Count != 0 ? waiting : 0) | (pdo.Type == type_acyclic ? pending : 0));
   }
 }
 

@@ -11,8 +11,7 @@ namespace co::pdo {
 enum TpdoFlag : uint8_t {
   pending = 0x01,    // an event is deferred until the inhibit time has elapsed, or until the SYNC
   inhibited = 0x02,  // event-driven: the inhibit time is running
-  sampled = 0x02,    // synchronous: Data holds the sample of the last SYNC
-  starts = 0x04,     // the PDO has a SYNC start value
+  sampled = 0x04,    // synchronous: Data holds the sample of the last SYNC
   waiting = 0x08,    // Count holds the SYNC start value, which was not reached yet; else Count is the number of SYNCs
   remote = 0x10,     // remote requests are allowed
   marked = 0x20,     // send_marked() triggers the PDO
