@@ -4,11 +4,9 @@
 
 #include "co_err.h"
 #include "co_sdo.h"
+#include "wire/abort.hpp"
 
 namespace co {
-
-// Return value of functions that return an abort code: no error.
-inline constexpr uint32_t no_abort = 0;
 
 namespace abort_codes {
 // Abort codes consist of error class, error code and additional code; half of their hexadecimal digits are always 0, so
@@ -22,7 +20,7 @@ struct Row {
       : err(static_cast<uint8_t>(of - CO_ERR_BASE)),
         upper(static_cast<uint8_t>((code >> 20) | (code >> 16))),
         details(static_cast<uint8_t>(code)) {}
-  constexpr uint32_t code() const { return ((upper & 0xF0U) << 20) | ((upper & 0x0FU) << 16) | details; }
+  constexpr Abort code() const { return Abort{((upper & 0xF0U) << 20) | ((upper & 0x0FU) << 16) | details}; }
 };
 inline constexpr Row rows[] = {
     {CO_ERR_OBJ_NOT_FOUND, CO_SDO_ERR_OBJ},
@@ -49,18 +47,20 @@ inline constexpr Row rows[] = {
 };
 }  // namespace abort_codes
 
-// Returns the SDO abort code of an error; CO_SDO_ERR_GENERAL for errors that the table does not contain.
-[[nodiscard]] constexpr uint32_t abort_code(CO_ERR err) {
+// Returns the SDO abort code of an error; general for errors that the table does not contain.
+[[nodiscard]] constexpr Abort abort_code(CO_ERR err) {
   for (const auto& row : abort_codes::rows) {
     if (row.err + CO_ERR_BASE == err) {
       return row.code();
     }
   }
-  return CO_SDO_ERR_GENERAL;
+  return Abort::general;
 }
 
-static_assert(abort_code(CO_ERR_OBJ_NOT_FOUND) == 0x06020000 && abort_code(CO_ERR_OBJ_SIZE) == 0x06070010);
-static_assert(abort_code(CO_ERR_OBJ_MAP_TYPE) == 0x06040041 && abort_code(CO_ERR_OBJ_RANGE) == 0x06090030);
-static_assert(abort_code(CO_ERR_TYPE_RD) == 0x08000020 && abort_code(CO_ERR_TMR_CREATE) == 0x08000000);
+static_assert(abort_code(CO_ERR_OBJ_NOT_FOUND) == Abort{0x06020000} &&
+              abort_code(CO_ERR_OBJ_SIZE) == Abort{0x06070010});
+static_assert(abort_code(CO_ERR_OBJ_MAP_TYPE) == Abort{0x06040041} &&
+              abort_code(CO_ERR_OBJ_RANGE) == Abort{0x06090030});
+static_assert(abort_code(CO_ERR_TYPE_RD) == Abort{0x08000020} && abort_code(CO_ERR_TMR_CREATE) == Abort{0x08000000});
 
 }  // namespace co

@@ -9,11 +9,11 @@ namespace co::access {
 namespace {
 
 // Returns the abort code for an access that the rights or the type of the object do not permit.
-uint32_t refusal(const CO_OBJ& obj, CO_OBJ_TRANSFER transfer) {
+Abort refusal(const CO_OBJ& obj, CO_OBJ_TRANSFER transfer) {
   if ((obj.Key & CO_OBJ_____RW) == 0) {
-    return CO_SDO_ERR_UNSUP;
+    return Abort::unsupported_access;
   }
-  return transfer == CO_OBJ_UPLOAD ? CO_SDO_ERR_RD : CO_SDO_ERR_WR;
+  return transfer == CO_OBJ_UPLOAD ? Abort::write_only : Abort::read_only;
 }
 
 // Returns whether the entry of the channel's transfer is still at the same place in the dictionary.
@@ -24,10 +24,10 @@ bool is_in_place(const CO_DICT& dict, const CO_SDO& channel) {
 
 }  // namespace
 
-uint32_t check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer) {
+Abort check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer) {
   CO_ASSERT(CO_GET_DEV(key) == key);
   if (obj == nullptr) {
-    return dict::has_index(node.Dict, key) ? CO_SDO_ERR_SUB : CO_SDO_ERR_OBJ;
+    return dict::has_index(node.Dict, key) ? Abort::no_sub_index : Abort::no_object;
   }
   const CO_OBJ_TYPE& type = *obj->Type;
   const bool is_permitted = transfer == CO_OBJ_UPLOAD ? CO_IS_READ(obj->Key) != 0 && type.Read != nullptr
@@ -35,7 +35,7 @@ uint32_t check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRAN
   if (!is_permitted) {
     return refusal(*obj, transfer);
   }
-  return type.Size != nullptr ? no_abort : CO_SDO_ERR_TOS;
+  return type.Size != nullptr ? Abort::none : Abort::not_stored;
 }
 
 void end_transfer(CO_NODE& node, CO_SDO& channel) {
@@ -43,7 +43,7 @@ void end_transfer(CO_NODE& node, CO_SDO& channel) {
   CO_OBJ& obj = *channel.Obj;
   channel.Obj = nullptr;
   if (is_begun(channel)) {
-    (void)obj::end(obj, node, direction_of(channel), CO_SDO_ERR_TOS_STATE);
+    (void)obj::end(obj, node, direction_of(channel), Abort::device_state);
   }
 }
 
@@ -76,24 +76,24 @@ uint32_t total_of(const CO_NODE& node, const CO_OBJ& obj) {
 #endif
 
 // Accepts length 0 for every stream: such a download empties it.
-uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length) {
+Abort check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length) {
   if (length == 0 && obj::is_stream(obj)) {
-    return no_abort;
+    return Abort::none;
   }
   const uint32_t need = size(obj, node, length);
   const bool failed = need == 0 && !obj::is_stream(obj);
   return failed ? abort_for(node, CO_ERR_TYPE_WR) : compare_length(length, need);
 }
 
-uint32_t abort_for(const CO_NODE& node, CO_ERR err) {
+Abort abort_for(const CO_NODE& node, CO_ERR err) {
   CO_ASSERT(node.Request != nullptr);
-  const uint32_t abort = node.Request->Abort;
-  return abort != no_abort ? abort : abort_code(err);
+  const Abort abort{node.Request->Abort};
+  return abort != Abort::none ? abort : abort_code(err);
 }
 
-uint32_t report_failure(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
-  const uint32_t abort = abort_for(node, err);
-  if (abort == CO_SDO_ERR_HW_ACCESS) {
+Abort report_failure(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
+  const Abort abort = abort_for(node, err);
+  if (abort == Abort::hardware) {
     CO_ASSERT(node.Request->Obj != nullptr);
     error::report(node, transfer == CO_OBJ_UPLOAD ? CO_ERR_SDO_READ : CO_ERR_SDO_WRITE, node.Request->Obj->Key);
   }

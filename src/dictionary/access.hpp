@@ -11,7 +11,7 @@ namespace co::access {
 
 // Checks that the access rights and the type of an object allow the transfer. obj: entry of the key, null if the
 // dictionary has none. Returns an abort code.
-[[nodiscard]] uint32_t check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer);
+[[nodiscard]] Abort check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer);
 
 // Returns the length in bytes of an object; its type has a Size function, as check() has found.
 // width: bytes of a download, 0 for an upload.
@@ -24,7 +24,7 @@ namespace co::access {
 // request may begin in a type function of the object of another request, which continues at the end of the scope.
 class Request {
  public:
-  Request(CO_NODE& node, CO_OBJ* obj) : node_(node), outer_(node.Request), request_{obj, no_abort} {
+  Request(CO_NODE& node, CO_OBJ* obj) : node_(node), outer_(node.Request), request_{obj, 0} {
     node.Request = &request_;
   }
   ~Request() { node_.Request = outer_; }
@@ -42,9 +42,9 @@ class Request {
   return node.Request != nullptr ? node.Request->Obj : nullptr;
 }
 
-// Returns the abort code that COObjTypeUserSDOAbort() has set for the request, or no_abort.
-[[nodiscard]] inline uint32_t user_abort(const CO_NODE& node) {
-  return node.Request != nullptr ? node.Request->Abort : no_abort;
+// Returns the abort code that COObjTypeUserSDOAbort() has set for the request, or none.
+[[nodiscard]] inline Abort user_abort(const CO_NODE& node) {
+  return node.Request != nullptr ? Abort{node.Request->Abort} : Abort::none;
 }
 
 // Open transfers ------------------------------------------------------------------------------------------------------
@@ -95,21 +95,21 @@ void close_moved(CO_NODE& node);
 // Checks and abort codes ----------------------------------------------------------------------------------------------
 
 // Compares the length of a transfer with need, the nearest length that the object allows. Returns an abort code.
-[[nodiscard]] constexpr uint32_t compare_length(uint32_t length, uint32_t need) {
+[[nodiscard]] constexpr Abort compare_length(uint32_t length, uint32_t need) {
   if (length == need) {
-    return no_abort;
+    return Abort::none;
   }
-  return length > need ? CO_SDO_ERR_LEN_HIGH : CO_SDO_ERR_LEN_SMALL;
+  return length > need ? Abort::too_long : Abort::too_short;
 }
 
 // Checks whether the object can be written with this length in bytes. Returns an abort code.
-[[nodiscard]] uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length);
+[[nodiscard]] Abort check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length);
 
 // Returns the abort code for the result of a type function: the code that was set by COObjTypeUserSDOAbort(), else the
 // code of err.
-[[nodiscard]] uint32_t abort_for(const CO_NODE& node, CO_ERR err);
+[[nodiscard]] Abort abort_for(const CO_NODE& node, CO_ERR err);
 // Returns the abort code for an error of a Read, Write or End function, like abort_for(). Reports a hardware error
 // (0606 0000h) as the node's error, too; any other error only refuses the request of the client.
-[[nodiscard]] uint32_t report_failure(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err);
+[[nodiscard]] Abort report_failure(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err);
 
 }  // namespace co::access

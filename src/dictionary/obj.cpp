@@ -15,9 +15,10 @@ CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t si
   return type == nullptr || type->Begin == nullptr ? CO_ERR_NONE : type->Begin(&obj, &node, transfer, size);
 }
 
-CO_ERR end(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
+CO_ERR end(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, Abort abort) {
   const CO_OBJ_TYPE_EX* const type = extended(obj);
-  return type == nullptr || type->End == nullptr ? CO_ERR_NONE : type->End(&obj, &node, transfer, abort);
+  return type == nullptr || type->End == nullptr ? CO_ERR_NONE
+                                                 : type->End(&obj, &node, transfer, static_cast<uint32_t>(abort));
 }
 
 }  // namespace co::obj

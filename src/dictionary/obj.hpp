@@ -4,6 +4,7 @@
 
 #include "co_cfg.h"
 #include "co_obj.h"
+#include "wire/abort.hpp"
 
 namespace co::obj {
 
@@ -48,6 +49,6 @@ namespace co::obj {
   return type == nullptr ? is_stream(obj) : type->Reset != nullptr;
 }
 [[nodiscard]] CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t size);
-[[nodiscard]] CO_ERR end(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t abort);
+[[nodiscard]] CO_ERR end(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, Abort abort);
 
 }  // namespace co::obj

@@ -50,9 +50,9 @@ static_assert(code_of(codes[ODR_NO_RESOURCE]) == 0x060A0023 && code_of(codes[ODR
 
 }  // namespace
 
-ODR_t result_of(uint32_t abort) {
+ODR_t result_of(Abort abort) {
   int result = 1;
-  while (result < ODR_COUNT && code_of(codes[result]) != abort) {
+  while (result < ODR_COUNT && Abort{code_of(codes[result])} != abort) {
     ++result;
   }
   return result < ODR_COUNT ? static_cast<ODR_t>(result) : ODR_GENERAL;

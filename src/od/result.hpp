@@ -4,11 +4,12 @@
 
 #include "co_core.h"
 #include "co_od.h"
+#include "wire/abort.hpp"
 
 namespace co::od {
 
 // Returns the result for an SDO abort code; ODR_GENERAL if no result stands for this code.
-[[nodiscard]] ODR_t result_of(uint32_t abort);
+[[nodiscard]] ODR_t result_of(Abort abort);
 
 // Returns the result for the error code of a type function of the object. An abort code that the function has set by
 // COObjTypeUserSDOAbort() has priority over the error code.

@@ -438,9 +438,10 @@ CO_ERR begin_original(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, uint
   return type == nullptr || type->Begin == nullptr ? CO_ERR_NONE : type->Begin(&obj, &node, transfer, size);
 }
 
-CO_ERR end_original(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
+CO_ERR end_original(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, Abort abort) {
   const CO_OBJ_TYPE_EX* const type = extended_type(original_type(obj));
-  return type == nullptr || type->End == nullptr ? CO_ERR_NONE : type->End(&obj, &node, transfer, abort);
+  return type == nullptr || type->End == nullptr ? CO_ERR_NONE
+                                                 : type->End(&obj, &node, transfer, static_cast<uint32_t>(abort));
 }
 
 // Upload and download -----------------------------------------------------------------------------------------------
@@ -529,19 +530,20 @@ CO_ERR ODStreamBegin(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, u
 // Ends a transfer for the extension, then for the original type. If the end fails for the extension, the original type
 // gets its abort code.
 CO_ERR ODStreamEnd(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
+  const Abort code{abort};
   OD_t* const od = port::index_of(*node);
   OD_TRANSFER* const od_transfer = od == nullptr ? nullptr : first_transfer(*od, *obj);
   if (od_transfer == nullptr) {
-    return end_original(*obj, *node, transfer, abort);
+    return end_original(*obj, *node, transfer, code);
   }
   CO_ERR err = CO_ERR_NONE;
-  if (abort == no_abort) {
+  if (code == Abort::none) {
     err = unless_extension_changed(*obj, *node, transfer, [=] {
       return transfer == CO_OBJ_DOWNLOAD ? finish_download(*obj, *node, *od_transfer) : CO_ERR_NONE;
     });
   }
   set(*od_transfer, in_application);
-  const CO_ERR end = end_original(*obj, *node, transfer, err == CO_ERR_NONE ? abort : access::abort_for(*node, err));
+  const CO_ERR end = end_original(*obj, *node, transfer, err == CO_ERR_NONE ? code : access::abort_for(*node, err));
   end_transfer(*od_transfer);
   return err != CO_ERR_NONE ? err : end;
 }

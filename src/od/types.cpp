@@ -65,11 +65,11 @@ CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
 // Does not replace an abort code that an original type has set during the call, if it corresponds to the same result.
 CO_ERR set_abort_code(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer) {
   if (result == ODR_OK || result == ODR_PARTIAL) {
-    COObjTypeUserSDOAbort(&obj, &node, no_abort);
+    COObjTypeUserSDOAbort(&obj, &node, 0);
     return CO_ERR_NONE;
   }
-  const uint32_t abort = access::user_abort(node);
-  if (abort == no_abort || result_of(abort) != result) {
+  const Abort abort = access::user_abort(node);
+  if (abort == Abort::none || result_of(abort) != result) {
     COObjTypeUserSDOAbort(&obj, &node, OD_getSDOabCode(result));
   }
   return error_of(result, transfer);

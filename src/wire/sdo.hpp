@@ -4,6 +4,7 @@
 
 #include "co_obj.h"
 #include "co_sdo.h"
+#include "wire/abort.hpp"
 #include "wire/crc.hpp"
 #include "wire/frame.hpp"
 
@@ -103,17 +104,17 @@ constexpr uint32_t segment_length(uint8_t command) { return segment_bytes - ((co
 constexpr bool is_last_segment(uint8_t command) { return (command & 0x01) != 0; }
 
 inline constexpr uint8_t abort_command = 0x80;
-inline CO_IF_FRM abort_frame(uint32_t identifier, uint32_t key, uint32_t code) {
+inline CO_IF_FRM abort_frame(uint32_t identifier, uint32_t key, Abort code) {
   CO_IF_FRM frame = empty_frame(identifier);
   put_head(frame, abort_command, key);
-  put_high(frame, code);
+  put_high(frame, static_cast<uint32_t>(code));
   return frame;
 }
 
-// Returns the abort code in an abort frame; CO_SDO_ERR_GENERAL for the code 0, which would mean success.
-inline uint32_t abort_code_in(const CO_IF_FRM& frame) {
-  const uint32_t code = get_high(frame);
-  return code != 0 ? code : CO_SDO_ERR_GENERAL;
+// Returns the abort code in an abort frame; general for the code 0, which would mean success.
+inline Abort abort_code_in(const CO_IF_FRM& frame) {
+  const Abort code{get_high(frame)};
+  return code != Abort::none ? code : Abort::general;
 }
 
 // Command bytes of the responses of a server.

@@ -30,9 +30,9 @@ bool is_missing(const CO_OBJ& obj) {
 
 }  // namespace
 
-uint32_t check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer) {
-  const uint32_t abort = access::check(node, key, obj, transfer);
-  return abort == no_abort && is_missing(*obj) ? CO_SDO_ERR_TOS : abort;
+Abort check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer) {
+  const Abort abort = access::check(node, key, obj, transfer);
+  return abort == Abort::none && is_missing(*obj) ? Abort::not_stored : abort;
 }
 
 #if USE_OD

@@ -4,6 +4,7 @@
 
 #include "co_obj.h"
 #include "dictionary/types/place.hpp"
+#include "wire/abort.hpp"
 
 namespace co::stream {
 
@@ -33,7 +34,7 @@ CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
 [[nodiscard]] const CO_OBJ_TYPE* original_type(const CO_OBJ& obj);
 
 // Checks an object like access::check(); also refuses a stream of this library whose Data is null.
-[[nodiscard]] uint32_t check(const CO_NODE_T& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer);
+[[nodiscard]] Abort check(const CO_NODE_T& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer);
 
 // Scope of an access that changes the position of a stream; its end restores the position, so that the application can
 // continue its access with COObjRdBufCont() or COObjWrBufCont().

@@ -66,34 +66,34 @@ bool send_segments(CO_CSDO& client) {
   return sent;
 }
 
-uint32_t block_download_accepted(Step& step) {
+Abort block_download_accepted(Step& step) {
   CO_CSDO& client = step.client;
   const uint8_t blksize = step.response.Data[4];
   step.silent = true;
   if (state_of(client) == State::block_download) {  // repeated by a server that has waited too long for segments
-    return no_abort;
+    return Abort::none;
   }
   if (!wire::is_blksize(blksize)) {
-    return CO_SDO_ERR_BLK_SIZE;
+    return Abort::block_size;
   }
   if (wire::has_crc(step.response.Data[0])) {
     set(client, crc);
   }
   begin_block(client, blksize);
   set_state(client, State::block_download);
-  return no_abort;
+  return Abort::none;
 }
 
-uint32_t block_acknowledged(Step& step) {
+Abort block_acknowledged(Step& step) {
   CO_CSDO& client = step.client;
   const uint8_t ackseq = step.response.Data[1];
   const uint8_t blksize = step.response.Data[2];
   if (ackseq > client.Seq) {
     step.silent = is_of_block_before(client);
-    return step.silent ? no_abort : CO_SDO_ERR_SEQ_NUM;
+    return step.silent ? Abort::none : Abort::sequence_number;
   }
   if (!wire::is_blksize(blksize)) {
-    return CO_SDO_ERR_BLK_SIZE;
+    return Abort::block_size;
   }
   const bool all = ackseq == client.Seq && has(client, last_sent);
   count_acknowledged(client, ackseq);
@@ -101,17 +101,17 @@ uint32_t block_acknowledged(Step& step) {
     step.request.Data[0] = wire::end_block(unused_in_last(client.Size));
     wire::put_u16(step.request.Data + 1, client.Crc);
     set_state(client, State::block_download_end);
-    return no_abort;
+    return Abort::none;
   }
   begin_block(client, blksize);
   step.silent = true;
-  return no_abort;
+  return Abort::none;
 }
 
-uint32_t block_download_confirmed(Step& step) {
+Abort block_download_confirmed(Step& step) {
   step.silent = true;
   step.done = true;
-  return no_abort;
+  return Abort::none;
 }
 
 }  // namespace co::sdo_client

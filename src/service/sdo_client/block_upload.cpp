@@ -30,19 +30,19 @@ void count_bytes(CO_CSDO& client, uint32_t n) {
 }
 
 // Stores a segment. The number of data bytes in the last segment is known only from the end message.
-uint32_t store_segment(CO_CSDO& client, const CO_IF_FRM& segment) {
+Abort store_segment(CO_CSDO& client, const CO_IF_FRM& segment) {
   const uint32_t position = client.Num + client.Seq * wire::segment_bytes;
   const uint32_t room = client.Size - position;
   const bool last = wire::is_last_in_block(segment.Data[0]);
   if (!last && has(client, sized) && client.Total - position < wire::segment_bytes) {
-    return CO_SDO_ERR_LEN_HIGH;
+    return Abort::too_long;
   }
   if (!last && room < wire::segment_bytes) {
-    return CO_SDO_ERR_MEM;
+    return Abort::memory;
   }
   __builtin_memcpy(client.Buf + position, segment.Data + 1, room < wire::segment_bytes ? room : wire::segment_bytes);
   ++client.Seq;
-  return no_abort;
+  return Abort::none;
 }
 
 // Acknowledges the segments in sequence: the server continues behind the last of them.
@@ -73,7 +73,7 @@ bool is_repeated(const CO_CSDO& client, uint8_t number) {
 bool is_right_end(const CO_CSDO& client, const CO_IF_FRM& frame) {
   const uint32_t n = wire::segment_bytes - wire::unused_in_block(frame.Data[0]);
   return wire::response_of(frame.Data[0]) == wire::Response::end_block_upload && n <= client.Size - client.Num &&
-         check_total(client, client.Num + n) == no_abort &&
+         check_total(client, client.Num + n) == Abort::none &&
          (!has(client, crc) || wire::crc16(client.Crc, client.Buf + client.Num, n) == wire::get_u16(frame.Data + 1));
 }
 
@@ -89,13 +89,13 @@ bool put_repeated_acknowledge(CO_CSDO& client, CO_IF_FRM& request) {
 
 }  // namespace
 
-uint32_t block_upload_accepted(Step& step) {
+Abort block_upload_accepted(Step& step) {
   CO_CSDO& client = step.client;
   const uint8_t command = step.response.Data[0];
   if (wire::has_crc(command)) {
     set(client, crc);
   }
-  const uint32_t abort = wire::is_block_sized(command) ? store_size(step) : no_abort;
+  const Abort abort = wire::is_block_sized(command) ? store_size(step) : Abort::none;
   client.AckSeq = 0;
   begin_block(client);
   step.request.Data[0] = wire::start_block;
@@ -103,7 +103,7 @@ uint32_t block_upload_accepted(Step& step) {
   return abort;
 }
 
-uint32_t block_segment_uploaded(Step& step) {
+Abort block_segment_uploaded(Step& step) {
   CO_CSDO& client = step.client;
   const uint8_t number = wire::seqno(step.response.Data[0]);
   const bool last = wire::is_last_in_block(step.response.Data[0]);
@@ -112,18 +112,18 @@ uint32_t block_segment_uploaded(Step& step) {
   const bool repeated = ends && is_repeated(client, number);
   step.silent = true;
   if (state_of(client) != State::block_upload) {
-    return no_abort;
+    return Abort::none;
   }
   if (number == 0) {
-    return CO_SDO_ERR_SEQ_NUM;
+    return Abort::sequence_number;
   }
   set(client, heard);
   set(client, active);
   if (repeated) {
-    return no_abort;
+    return Abort::none;
   }
-  const uint32_t abort = in_order ? store_segment(client, step.response) : no_abort;
-  if (abort != no_abort || !ends) {
+  const Abort abort = in_order ? store_segment(client, step.response) : Abort::none;
+  if (abort != Abort::none || !ends) {
     return abort;
   }
   if (in_order && last) {
@@ -132,7 +132,7 @@ uint32_t block_segment_uploaded(Step& step) {
     end_block(client, step.request);
   }
   step.silent = false;
-  return no_abort;
+  return Abort::none;
 }
 
 bool is_last_segment_again(const CO_CSDO& client, const CO_IF_FRM& frame) {
@@ -142,23 +142,23 @@ bool is_last_segment_again(const CO_CSDO& client, const CO_IF_FRM& frame) {
          wire::is_equal(frame.Data + 1, client.Buf + client.Num, n) && !is_right_end(client, frame);
 }
 
-uint32_t block_upload_ended(Step& step) {
+Abort block_upload_ended(Step& step) {
   CO_CSDO& client = step.client;
   const uint32_t n = wire::segment_bytes - wire::unused_in_block(step.response.Data[0]);
-  uint32_t abort = check_total(client, client.Num + n);
-  if (abort == no_abort && n > client.Size - client.Num) {
-    abort = CO_SDO_ERR_MEM;
+  Abort abort = check_total(client, client.Num + n);
+  if (abort == Abort::none && n > client.Size - client.Num) {
+    abort = Abort::memory;
   }
-  if (abort != no_abort) {
+  if (abort != Abort::none) {
     return abort;
   }
   count_bytes(client, n);
   if (has(client, crc) && client.Crc != wire::get_u16(step.response.Data + 1)) {
-    return CO_SDO_ERR_CRC;
+    return Abort::crc;
   }
   step.request.Data[0] = wire::confirm_block;
   step.done = true;
-  return no_abort;
+  return Abort::none;
 }
 
 // A server that stops within a block may have lost the acknowledge, or the client may have lost the last segment of the
@@ -166,7 +166,7 @@ uint32_t block_upload_ended(Step& step) {
 void handle_quarter(CO_CSDO& client) {
   client.Silence = has(client, active) ? 0 : static_cast<uint8_t>(client.Silence + 1);
   if (client.Silence == quarters) {
-    abort_transfer(client, CO_SDO_ERR_TIMEOUT);
+    abort_transfer(client, Abort::time_out);
     return;
   }
   CO_IF_FRM request = wire::empty_frame(client.TxId);

@@ -83,7 +83,7 @@ bool configure_client(CO_CSDO& client) {
     if (is_aborted) {
       return false;
     }
-    abort_transfer(client, CO_SDO_ERR_TOS_STATE);
+    abort_transfer(client, Abort::device_state);
     is_aborted = true;
   }
 }

@@ -18,33 +18,33 @@ void put_segment(const CO_CSDO& client, CO_IF_FRM& request) {
 
 }  // namespace
 
-uint32_t download_accepted(Step& step) {
+Abort download_accepted(Step& step) {
   CO_CSDO& client = step.client;
   if (is_expedited(client)) {
     client.Num = client.Size;
     step.silent = true;
     step.done = true;
-    return no_abort;
+    return Abort::none;
   }
   put_segment(client, step.request);
   set_state(client, State::download);
-  return no_abort;
+  return Abort::none;
 }
 
-uint32_t segment_downloaded(Step& step) {
+Abort segment_downloaded(Step& step) {
   CO_CSDO& client = step.client;
   if (wire::toggle(step.response) != client.Toggle) {
-    return CO_SDO_ERR_TBIT;
+    return Abort::toggle_bit;
   }
   client.Num += next_length(client);
   client.Toggle ^= wire::toggle_bit;
   if (client.Num == client.Size) {
     step.silent = true;
     step.done = true;
-    return no_abort;
+    return Abort::none;
   }
   put_segment(client, step.request);
-  return no_abort;
+  return Abort::none;
 }
 
 }  // namespace co::sdo_client

@@ -29,7 +29,7 @@ CO_ERR find_end(CO_OBJ& obj, CO_NODE& node, uint32_t& size) {
   return err;
 }
 
-uint32_t read_all(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
+Abort read_all(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
   CO_NODE& node = *client.Node;
   CO_ERR err = is_value(obj, size) ? CO_ERR_NONE : COObjRdBufStart(&obj, &node, client.Buf, 0);
   if (err == CO_ERR_NONE && size != 0) {
@@ -42,17 +42,17 @@ uint32_t read_all(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
     return access::report_failure(node, CO_OBJ_UPLOAD, err);
   }
   if (size > client.Size) {
-    return CO_SDO_ERR_MEM;
+    return Abort::memory;
   }
   if (is_value(obj, size)) {
     wire::swap_host(client.Buf, size);
   }
   client.Total = size;
   client.Num = size;
-  return no_abort;
+  return Abort::none;
 }
 
-uint32_t write_all(CO_CSDO& client, CO_OBJ& obj) {
+Abort write_all(CO_CSDO& client, CO_OBJ& obj) {
   CO_NODE& node = *client.Node;
   uint8_t value[sizeof(uint64_t)];
   uint8_t* from = client.Buf;
@@ -71,18 +71,18 @@ uint32_t write_all(CO_CSDO& client, CO_OBJ& obj) {
     err = obj::write(obj, node, from, client.Size);
   }
   client.Num = client.Size;
-  return err == CO_ERR_NONE ? no_abort : access::report_failure(node, CO_OBJ_DOWNLOAD, err);
+  return err == CO_ERR_NONE ? Abort::none : access::report_failure(node, CO_OBJ_DOWNLOAD, err);
 }
 
-uint32_t check_upload(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
+Abort check_upload(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
   if (obj::is_no_size(obj, size)) {
     return access::abort_for(*client.Node, CO_ERR_TYPE_RD);
   }
-  return !obj::is_unknown(size) && size > client.Size ? CO_SDO_ERR_MEM : no_abort;
+  return !obj::is_unknown(size) && size > client.Size ? Abort::memory : Abort::none;
 }
 
 // Checks the length before the type's Begin function is called.
-uint32_t check_size(CO_CSDO& client, CO_OBJ& obj, uint32_t& size) {
+Abort check_size(CO_CSDO& client, CO_OBJ& obj, uint32_t& size) {
   if (has(client, is_upload)) {
     size = obj::size(obj, *client.Node, 0);
     return check_upload(client, obj, size);
@@ -91,11 +91,11 @@ uint32_t check_size(CO_CSDO& client, CO_OBJ& obj, uint32_t& size) {
   return access::check_length(*client.Node, obj, size);
 }
 
-uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
+Abort transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
   CO_NODE& node = *client.Node;
   uint32_t size = 0;
-  uint32_t abort = check_size(client, obj, size);
-  if (abort != no_abort) {
+  Abort abort = check_size(client, obj, size);
+  if (abort != Abort::none) {
     return abort;
   }
   CO_ERR err = obj::begin(obj, node, direction, size);
@@ -104,30 +104,30 @@ uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
   }
   abort = direction == CO_OBJ_UPLOAD ? read_all(client, obj, size) : write_all(client, obj);
   err = obj::end(obj, node, direction, abort);
-  const bool refused = abort == no_abort && err != CO_ERR_NONE && direction == CO_OBJ_DOWNLOAD;
+  const bool refused = abort == Abort::none && err != CO_ERR_NONE && direction == CO_OBJ_DOWNLOAD;
   return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : abort;
 }
 
 // Reads or writes the object. Returns an abort code.
-uint32_t access_own(CO_CSDO& client) {
+Abort access_own(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
   const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
   const access::Request request(node, nullptr);
   CO_OBJ* const obj = dict::find(node, client.Key);
-  const uint32_t abort = stream::check(node, client.Key, obj, direction);
-  if (abort != no_abort) {
+  const Abort abort = stream::check(node, client.Key, obj, direction);
+  if (abort != Abort::none) {
     return abort;
   }
   node.Request->Obj = obj;
   const bool taken = obj::is_stream(*obj) && access::is_open(node, *obj, nullptr);
-  return taken ? CO_SDO_ERR_TOS_STATE : transfer(client, *obj, direction);
+  return taken ? Abort::device_state : transfer(client, *obj, direction);
 }
 
 void run_own_access(void* client_pointer) {
   CO_CSDO& client = *static_cast<CO_CSDO*>(client_pointer);
   set_state(client, State::own_running);
-  const uint32_t code = access_own(client);
-  finish(client, state_of(client) == State::own_running ? code : CO_SDO_ERR_TOS_LOCAL);
+  const Abort code = access_own(client);
+  finish(client, state_of(client) == State::own_running ? code : Abort::local_control);
 }
 
 }  // namespace

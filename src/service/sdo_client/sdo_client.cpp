@@ -21,31 +21,31 @@ void on_time(void* client_pointer) {
       return;
     }
   }
-  abort_transfer(client, CO_SDO_ERR_TIMEOUT);
+  abort_transfer(client, Abort::time_out);
 }
 
-uint32_t refuse_response(Step&) { return CO_SDO_ERR_CMD; }
+Abort refuse_response(Step&) { return Abort::command; }
 
 // Returns whether the server does not support block transfer, which is optional for servers.
 bool is_block_refused(const Step& step) {
-  const uint32_t code = wire::get_high(step.response);
+  const Abort code{wire::get_high(step.response)};
   const uint32_t asked = in(State::block_download_initiated, State::block_upload_initiated);
-  return (in(state_of(step.client)) & asked) != 0 && (code == CO_SDO_ERR_CMD || code == CO_SDO_ERR_GENERAL);
+  return (in(state_of(step.client)) & asked) != 0 && (code == Abort::command || code == Abort::general);
 }
 
 // Processes an abort of the server. If it refuses a block transfer, starts again without blocks.
-uint32_t aborted(Step& step) {
+Abort aborted(Step& step) {
   if (has_block && is_block_refused(step)) {
     put_initiate(step.client, false, step.request);
-    return no_abort;
+    return Abort::none;
   }
   step.silent = true;
   step.done = true;
   step.result = wire::abort_code_in(step.response);
-  return no_abort;
+  return Abort::none;
 }
 
-using Service = uint32_t (*)(Step&);
+using Service = Abort (*)(Step&);
 using wire::Response;
 
 constexpr uint32_t initiated = in(State::download_initiated, State::upload_initiated, State::block_download_initiated,
@@ -84,7 +84,7 @@ bool is_for_another(const CO_CSDO& client, const CO_IF_FRM& frame) {
   if ((in(state_of(client)) & initiated) == 0 || key == client.Key) {
     return false;
   }
-  return frame.Data[0] != wire::abort_command || (key != 0 && wire::get_high(frame) != CO_SDO_ERR_CMD);
+  return frame.Data[0] != wire::abort_command || (key != 0 && Abort{wire::get_high(frame)} != Abort::command);
 }
 
 // Returns the kind of a response. Segments of a block have no command specifier: the state decides.
@@ -161,9 +161,9 @@ CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CS
 // Not inlined: relative to a pointer to the client, all members are reached by short loads.
 [[gnu::noinline]] void process_response(CO_CSDO& client, const CO_IF_FRM& response) {
   CO_IF_FRM request = wire::empty_frame(client.TxId);
-  Step step = {client, response, request, false, false, no_abort};
-  const uint32_t abort = machine(state_of(client), response_in(client, response))(step);
-  if (abort != no_abort) {
+  Step step = {client, response, request, false, false, Abort::none};
+  const Abort abort = machine(state_of(client), response_in(client, response))(step);
+  if (abort != Abort::none) {
     abort_transfer(client, abort);
     return;
   }
@@ -198,15 +198,15 @@ void start_timeout(CO_CSDO& client) {
   tmr::start(*client.Node, client.Tmr, ticks, 0, on_time, &client);
 }
 
-void finish(CO_CSDO& client, uint32_t code) {
+void finish(CO_CSDO& client, Abort code) {
   const uint32_t key = client.Key;
   tmr::stop(*client.Node, client.Tmr);
   set_state(client, State::idle);
   client.State = CO_CSDO_STATE_IDLE;
-  client.Call(&client, CO_GET_IDX(key), CO_GET_SUB(key), code);
+  client.Call(&client, CO_GET_IDX(key), CO_GET_SUB(key), static_cast<uint32_t>(code));
 }
 
-void abort_transfer(CO_CSDO& client, uint32_t code) {
+void abort_transfer(CO_CSDO& client, Abort code) {
   if (client.TxId != wire::no_frame && event::is_allowed(*client.Node, CO_SDO_ALLOWED)) {
     transmit::send(*client.Node, wire::abort_frame(client.TxId, client.Key, code));
   }
@@ -270,7 +270,7 @@ void on_mode(CO_NODE& node) {
     transmit::withdraw(node, client.TxId);
     transmit::withdraw(node, client.WasTxId);
     if (client.State == CO_CSDO_STATE_BUSY) {
-      finish(client, CO_SDO_ERR_TOS_STATE);
+      finish(client, Abort::device_state);
     }
   }
 }
@@ -322,7 +322,7 @@ CO_ERR COCSdoCancel(CO_CSDO* csdo) {
       return CO_ERR_NONE;
     }
   }
-  sdo_client::abort_transfer(*csdo, CO_SDO_ERR_TOS_LOCAL);
+  sdo_client::abort_transfer(*csdo, Abort::local_control);
   return CO_ERR_NONE;
 }
 

@@ -46,9 +46,9 @@ struct Step {
   CO_CSDO& client;
   const CO_IF_FRM& response;
   CO_IF_FRM& request;
-  bool silent;      // no request is sent
-  bool done;        // the transfer is complete; the request, if any, is the last one
-  uint32_t result;  // abort code of the transfer, valid with done
+  bool silent;   // no request is sent
+  bool done;     // the transfer is complete; the request, if any, is the last one
+  Abort result;  // abort code of the transfer, valid with done
 };
 
 inline State state_of(const CO_CSDO& client) { return static_cast<State>(client.Step); }
@@ -61,16 +61,16 @@ inline void clear(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8
 [[nodiscard]] inline bool is_expedited(const CO_CSDO& client) { return client.Size - 1 < wire::expedited_bytes; }
 
 // Services of the state machine. They return the abort code with which the client ends the transfer. [301:7.2.4.3]
-[[nodiscard]] uint32_t download_accepted(Step& step);
-[[nodiscard]] uint32_t segment_downloaded(Step& step);
-[[nodiscard]] uint32_t upload_accepted(Step& step);
-[[nodiscard]] uint32_t segment_uploaded(Step& step);
-[[nodiscard]] uint32_t block_download_accepted(Step& step);
-[[nodiscard]] uint32_t block_acknowledged(Step& step);
-[[nodiscard]] uint32_t block_download_confirmed(Step& step);
-[[nodiscard]] uint32_t block_upload_accepted(Step& step);
-[[nodiscard]] uint32_t block_segment_uploaded(Step& step);
-[[nodiscard]] uint32_t block_upload_ended(Step& step);
+[[nodiscard]] Abort download_accepted(Step& step);
+[[nodiscard]] Abort segment_downloaded(Step& step);
+[[nodiscard]] Abort upload_accepted(Step& step);
+[[nodiscard]] Abort segment_uploaded(Step& step);
+[[nodiscard]] Abort block_download_accepted(Step& step);
+[[nodiscard]] Abort block_acknowledged(Step& step);
+[[nodiscard]] Abort block_download_confirmed(Step& step);
+[[nodiscard]] Abort block_upload_accepted(Step& step);
+[[nodiscard]] Abort block_segment_uploaded(Step& step);
+[[nodiscard]] Abort block_upload_ended(Step& step);
 
 // Reads the configuration again, unless a transfer is in progress.
 void refresh(CO_CSDO& client);
@@ -81,19 +81,19 @@ void start_timeout(CO_CSDO& client);
 // Ends the transfer and calls its callback. Must be the last action of its caller: the callback may start the next
 // transfer. While type functions of an access to the own dictionary may be running, only stores the abort code: the
 // callback is called after them.
-void finish(CO_CSDO& client, uint32_t code);
+void finish(CO_CSDO& client, Abort code);
 
 // Ends the transfer, and sends an abort to the server if SDO is allowed. Must be the last action: the callback may
 // start the next transfer.
-void abort_transfer(CO_CSDO& client, uint32_t code);
+void abort_transfer(CO_CSDO& client, Abort code);
 
 // Fills the first request of a transfer. by_block: requests a block transfer if the data are long enough.
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request);
 
 // Stores the size that the server announces. Returns an abort code.
-[[nodiscard]] uint32_t store_size(Step& step);
+[[nodiscard]] Abort store_size(Step& step);
 // Compares a total length with the announced size. Returns an abort code.
-[[nodiscard]] uint32_t check_total(const CO_CSDO& client, uint32_t total);
+[[nodiscard]] Abort check_total(const CO_CSDO& client, uint32_t total);
 
 // Block transfer (USE_CSDO_BLOCK) ---------------------------------------------------------------------------------
 

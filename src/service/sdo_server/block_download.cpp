@@ -38,11 +38,11 @@ void store_segment(CO_SDO& channel, const CO_IF_FRM& segment) {
   ++channel.Seq;
 }
 
-uint32_t write_buffer(CO_SDO& channel, uint32_t n) {
+Abort write_buffer(CO_SDO& channel, uint32_t n) {
   const bool opens = channel.Num == 0 && !has(channel, whole);
-  uint32_t abort = opens ? begin_data(channel, *channel.Obj, channel.Value, 0) : no_abort;
+  Abort abort = opens ? begin_data(channel, *channel.Obj, channel.Value, 0) : Abort::none;
   channel.Fill = 0;
-  if (abort == no_abort) {
+  if (abort == Abort::none) {
     abort = transfer_piece(channel, channel.Num, buffer_of(channel), n);
     channel.Num = channel.Read;
   }
@@ -50,9 +50,9 @@ uint32_t write_buffer(CO_SDO& channel, uint32_t n) {
 }
 
 // Writes the full buffer to the object.
-uint32_t empty_buffer(CO_SDO& channel) {
+Abort empty_buffer(CO_SDO& channel) {
   if (channel.Obj == nullptr) {
-    return CO_SDO_ERR_TOS_STATE;
+    return Abort::device_state;
   }
   add_to_crc(channel, channel.Fill);
   return write_buffer(channel, channel.Fill);
@@ -130,12 +130,12 @@ bool store_in_block(CO_SDO& channel, const CO_IF_FRM& segment) {
   return !is_repeated;
 }
 
-uint32_t end_block(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
+Abort end_block(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
   if (has(channel, too_long)) {
-    return CO_SDO_ERR_LEN_HIGH;
+    return Abort::too_long;
   }
   const bool is_full = channel.Fill == CO_SDO_BUF_BYTE && state_of(channel) == State::block_download;
-  const uint32_t abort = is_full ? empty_buffer(channel) : no_abort;
+  const Abort abort = is_full ? empty_buffer(channel) : Abort::none;
   acknowledge(channel, answer);
   return abort;
 }
@@ -147,23 +147,23 @@ bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame) {
          wire::is_equal(frame.Data + 1, stored, wire::segment_bytes) && !is_right_end(channel, frame);
 }
 
-uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
+Abort end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
   if (channel.Obj == nullptr) {
-    return CO_SDO_ERR_TOS_STATE;
+    return Abort::device_state;
   }
   const uint32_t n = channel.Fill - wire::unused_in_block(request.Data[0]);
-  uint32_t abort = check_total(channel, channel.Num + n);
-  if (abort != no_abort) {
+  Abort abort = check_total(channel, channel.Num + n);
+  if (abort != Abort::none) {
     return abort;
   }
   add_to_crc(channel, n);
   if (has(channel, crc) && channel.Crc != wire::get_u16(request.Data + 1)) {
-    return CO_SDO_ERR_CRC;
+    return Abort::crc;
   }
   set_total(channel, n);
   abort = write_buffer(channel, n);
   answer.Data[0] = wire::confirm_block;
-  return abort == no_abort ? finish_download(channel) : abort;
+  return abort == Abort::none ? finish_download(channel) : abort;
 }
 
 void repeat_acknowledge(CO_SDO& channel) {
@@ -172,7 +172,7 @@ void repeat_acknowledge(CO_SDO& channel) {
     return;
   }
   if (has(channel, too_long)) {
-    abort_transfer(channel, CO_SDO_ERR_LEN_HIGH);
+    abort_transfer(channel, Abort::too_long);
     return;
   }
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);

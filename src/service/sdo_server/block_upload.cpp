@@ -31,21 +31,21 @@ void pause(CO_NODE& node) {
   node.Burst = CO_SDO_BLOCK_PACE;
 }
 
-uint32_t load(CO_SDO& channel, uint32_t position) {
+Abort load(CO_SDO& channel, uint32_t position) {
   if (channel.Obj == nullptr) {
-    return CO_SDO_ERR_TOS_STATE;
+    return Abort::device_state;
   }
   CO_ASSERT(position < channel.Size);
   const uint32_t n = smaller(CO_SDO_BUF_BYTE, channel.Size - position);
   __builtin_memset(buffer_of(channel), 0, n);  // clears bytes that the type may not fill
-  const uint32_t abort = transfer_piece(channel, position, buffer_of(channel), n);
+  const Abort abort = transfer_piece(channel, position, buffer_of(channel), n);
   if (has(channel, behind)) {
     channel.Fill = 0;
     pause(*channel.Node);
-    return no_abort;
+    return Abort::none;
   }
   channel.Fill = static_cast<uint16_t>(channel.Read - position);
-  if (abort == no_abort) {
+  if (abort == Abort::none) {
     add_to_crc(channel, position);
   }
   return abort;
@@ -53,12 +53,12 @@ uint32_t load(CO_SDO& channel, uint32_t position) {
 
 // Returns whether the segment at the position is in the buffer, after reading it if necessary. Otherwise abort is the
 // reason, if SDO is still allowed.
-bool provide(CO_SDO& channel, uint32_t position, uint32_t& abort) {
+bool provide(CO_SDO& channel, uint32_t position, Abort& abort) {
   if (channel.Read - position - 1 < channel.Fill || position >= channel.Size) {
     return true;
   }
   abort = load(channel, position);
-  const bool is_there = abort == no_abort && !has(channel, behind);
+  const bool is_there = abort == Abort::none && !has(channel, behind);
   clear(channel, behind);
   return is_there && event::is_allowed(*channel.Node, CO_SDO_ALLOWED);
 }
@@ -76,8 +76,8 @@ void fill(CO_IF_FRM& frame, const uint8_t* from, uint32_t left) {
 
 }  // namespace
 
-uint32_t send_segments(CO_SDO& channel) {
-  uint32_t abort = no_abort;
+Abort send_segments(CO_SDO& channel) {
+  Abort abort = Abort::none;
   uint32_t position = channel.Num + channel.Seq * wire::segment_bytes;
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);
   while (channel.Seq != channel.BlkSize && provide(channel, position, abort)) {
@@ -98,14 +98,14 @@ uint32_t send_segments(CO_SDO& channel) {
   return abort;
 }
 
-uint32_t check_block_upload(const CO_SDO& channel, const CO_OBJ& obj, const CO_IF_FRM& request) {
+Abort check_block_upload(const CO_SDO& channel, const CO_OBJ& obj, const CO_IF_FRM& request) {
   if (!wire::is_blksize(request.Data[4])) {
-    return CO_SDO_ERR_BLK_SIZE;
+    return Abort::block_size;
   }
   // Data that cannot be read again have to fit into the buffer.
   const bool can_go_back =
       obj::can_seek(obj) || channel.Size <= sizeof channel.Value || channel.Size <= CO_SDO_BUF_BYTE;
-  return can_go_back || !is_worth_block(channel.Size, request) ? no_abort : CO_SDO_ERR_CMD;
+  return can_go_back || !is_worth_block(channel.Size, request) ? Abort::none : Abort::command;
 }
 
 void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request) {
@@ -119,27 +119,27 @@ void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request) {
   channel.BlkSize = request.Data[4];
 }
 
-uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
+Abort start_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
   silence(answer);
   set_state(channel, State::block_upload);
   return send_segments(channel);
 }
 
-uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
+Abort acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
   const uint8_t ackseq = request.Data[1];
   const uint8_t blksize = request.Data[2];
   if (ackseq > channel.Seq) {
-    return CO_SDO_ERR_SEQ_NUM;
+    return Abort::sequence_number;
   }
   if (!wire::is_blksize(blksize)) {
-    return CO_SDO_ERR_BLK_SIZE;
+    return Abort::block_size;
   }
   const uint32_t acknowledged = ackseq * wire::segment_bytes;
   if (ackseq == channel.Seq && has(channel, last_sent)) {
     answer.Data[0] = wire::end_block(channel.Num + acknowledged - channel.Size);
     wire::put_u16(answer.Data + 1, channel.Crc);
     set_state(channel, State::block_upload_end);
-    return no_abort;
+    return Abort::none;
   }
   channel.Num += acknowledged;
   channel.BlkSize = blksize;
@@ -149,9 +149,9 @@ uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&
   return send_segments(channel);
 }
 
-uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
+Abort end_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
   silence(answer);
-  return close(channel, no_abort);
+  return close(channel, Abort::none);
 }
 
 }  // namespace co::sdo_server

@@ -9,27 +9,27 @@ namespace {
 // Returns the maximum number of bytes of a download whose size is not announced.
 uint32_t capacity(CO_NODE& node, CO_OBJ& obj) { return access::size(obj, node, obj::is_stream(obj) ? UINT32_MAX : 0); }
 
-uint32_t expedited_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request) {
+Abort expedited_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request) {
   CO_NODE& node = *channel.Node;
   const uint8_t command = request.Data[0];
   const uint32_t length = wire::is_size_indicated(command) ? wire::expedited_length(command) : capacity(node, obj);
   if (length > wire::expedited_bytes) {
-    return CO_SDO_ERR_LEN;
+    return Abort::length;
   }
-  uint32_t abort = access::check_length(node, obj, length);
-  if (abort == no_abort && obj::is_stream(obj)) {
+  Abort abort = access::check_length(node, obj, length);
+  if (abort == Abort::none && obj::is_stream(obj)) {
     abort = begin_stream(channel, obj, length);
   }
-  if (abort != no_abort) {
+  if (abort != Abort::none) {
     return abort;
   }
   wire::put_aligned(channel.Value, wire::get_high(request));
   abort = begin_data(channel, obj, channel.Value, length);
-  return abort == no_abort && access::is_begun(channel) ? close(channel, no_abort) : abort;
+  return abort == Abort::none && access::is_begun(channel) ? close(channel, Abort::none) : abort;
 }
 
 // Sets Size to the announced size, or to the maximum of the object.
-uint32_t take_size(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, bool announced) {
+Abort take_size(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, bool announced) {
   CO_NODE& node = *channel.Node;
   if (announced) {
     set(channel, sized);
@@ -37,17 +37,17 @@ uint32_t take_size(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, bool 
     return access::check_length(node, obj, channel.Size);
   }
   channel.Size = capacity(node, obj);
-  return channel.Size == 0 && !obj::is_stream(obj) ? access::abort_for(node, CO_ERR_TYPE_WR) : no_abort;
+  return channel.Size == 0 && !obj::is_stream(obj) ? access::abort_for(node, CO_ERR_TYPE_WR) : Abort::none;
 }
 
-uint32_t longer_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, CO_IF_FRM& answer, Mode mode) {
+Abort longer_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, CO_IF_FRM& answer, Mode mode) {
   const uint8_t command = request.Data[0];
   const bool announced = mode == Mode::block ? wire::is_block_sized(command) : wire::is_size_indicated(command);
-  uint32_t abort = take_size(channel, obj, request, announced);
-  if (abort == no_abort && obj::is_stream(obj)) {
+  Abort abort = take_size(channel, obj, request, announced);
+  if (abort == Abort::none && obj::is_stream(obj)) {
     abort = begin_stream(channel, obj, announced ? channel.Size : CO_OBJ_SIZE_UNKNOWN);
   }
-  if (abort != no_abort) {
+  if (abort != Abort::none) {
     return abort;
   }
   if (is_value(channel, obj)) {
@@ -56,14 +56,14 @@ uint32_t longer_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request,
   continue_transfer(channel, obj, mode == Mode::block ? State::block_download : State::download);
   if (has_block && mode == Mode::block) {
     begin_block_download(channel, request, answer);
-    return no_abort;
+    return Abort::none;
   }
-  return has(channel, whole) ? no_abort : begin_data(channel, obj, channel.Value, 0);
+  return has(channel, whole) ? Abort::none : begin_data(channel, obj, channel.Value, 0);
 }
 
-uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found, Mode mode) {
+Abort initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found, Mode mode) {
   const Opened opened = open(channel, request, CO_OBJ_DOWNLOAD, found);
-  if (opened.abort != no_abort) {
+  if (opened.abort != Abort::none) {
     return opened.abort;
   }
   CO_OBJ& obj = *opened.obj;
@@ -75,47 +75,47 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
 
 }  // namespace
 
-uint32_t initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
+Abort initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
   return initiate(channel, request, answer, found, Mode::segmented);
 }
 
 #if USE_SDO_BLOCK
-uint32_t initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
+Abort initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
   if (!has_buffer(channel)) {
     restart(channel, request);
-    return CO_SDO_ERR_CMD;
+    return Abort::command;
   }
   return initiate(channel, request, answer, found, Mode::block);
 }
 #endif
 
-uint32_t check_total(CO_SDO& channel, uint32_t total) {
+Abort check_total(CO_SDO& channel, uint32_t total) {
   if (total > channel.Size) {
-    return CO_SDO_ERR_LEN_HIGH;
+    return Abort::too_long;
   }
   if (channel.Obj == nullptr) {
-    return CO_SDO_ERR_TOS_STATE;
+    return Abort::device_state;
   }
   return has(channel, sized) ? access::compare_length(total, channel.Size)
                              : access::check_length(*channel.Node, *channel.Obj, total);
 }
 
-uint32_t finish_download(CO_SDO& channel) {
+Abort finish_download(CO_SDO& channel) {
   CO_ASSERT(!has(channel, whole) || channel.Obj != nullptr);
-  const uint32_t abort = has(channel, whole) ? begin_data(channel, *channel.Obj, channel.Value, channel.Num) : no_abort;
-  return abort == no_abort ? close(channel, no_abort) : abort;
+  const Abort abort = has(channel, whole) ? begin_data(channel, *channel.Obj, channel.Value, channel.Num) : Abort::none;
+  return abort == Abort::none ? close(channel, Abort::none) : abort;
 }
 
-uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
+Abort download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
   const uint8_t command = request.Data[0];
-  uint32_t abort = check_segment(channel, request);
-  if (abort != no_abort) {
+  Abort abort = check_segment(channel, request);
+  if (abort != Abort::none) {
     return abort;
   }
   const uint32_t left = channel.Size - channel.Num;
   const uint32_t n = has(channel, sized) ? wire::segment_length(command, left) : wire::segment_length(command);
   if (n > left) {
-    return CO_SDO_ERR_LEN_HIGH;
+    return Abort::too_long;
   }
   if (wire::is_last_segment(command)) {
     set_total(channel, n);
@@ -125,11 +125,11 @@ uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
   channel.Num = channel.Read;
   answer.Data[0] = wire::download_segment_response(channel.Flags & toggled);
   channel.Flags ^= toggled;
-  if (abort != no_abort || !wire::is_last_segment(command)) {
+  if (abort != Abort::none || !wire::is_last_segment(command)) {
     return abort;
   }
   abort = check_total(channel, channel.Num);
-  return abort == no_abort ? finish_download(channel) : abort;
+  return abort == Abort::none ? finish_download(channel) : abort;
 }
 
 }  // namespace co::sdo_server

@@ -28,7 +28,7 @@ void describe_download(CO_ACCESS_SDO& access, const CO_IF_FRM& request) {
 
 }  // namespace
 
-uint32_t ask_application(CO_SDO& channel, const CO_IF_FRM& request) {
+Abort ask_application(CO_SDO& channel, const CO_IF_FRM& request) {
   CO_NODE& node = *channel.Node;
   CO_ACCESS_SDO access = {};
   access.Index = static_cast<uint16_t>(CO_GET_IDX(channel.Key));
@@ -38,7 +38,7 @@ uint32_t ask_application(CO_SDO& channel, const CO_IF_FRM& request) {
     access.Direction = CO_OBJ_DOWNLOAD;
     describe_download(access, request);
   }
-  return gate::ask<uint32_t, const CO_ACCESS_SDO>(node, &CO_CALLBACKS::AccessSdo, access);
+  return Abort{gate::ask<uint32_t, const CO_ACCESS_SDO>(node, &CO_CALLBACKS::AccessSdo, access)};
 }
 
 }  // namespace co::sdo_server

@@ -16,23 +16,23 @@
 namespace co::sdo_server {
 namespace {
 
-uint32_t end_by_client(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
+Abort end_by_client(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
   close(channel, wire::abort_code_in(request));
   silence(answer);
-  return no_abort;
+  return Abort::none;
 }
 
 using wire::Request;
 
 // Aborts with the key of the open transfer; if there is none, or if the request initiates one, with the key in the
 // request.
-uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&, CO_OBJ*) {
+Abort refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&, CO_OBJ*) {
   const Request command = wire::request_of(request.Data[0]);
   const bool begins = command == Request::initiate_block_download || command == Request::initiate_block_upload;
   if (begins || state_of(channel) == State::idle) {
     restart(channel, request);
   }
-  return CO_SDO_ERR_CMD;
+  return Abort::command;
 }
 
 // States in which an initiate request closes an open transfer and starts a new one. [301:7.2.4.3] Within a block of a
@@ -76,11 +76,11 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, 
   CO_NODE& node = *channel.Node;
   CO_ASSERT(state_of(channel) < State::count);
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
-  CO_REQUEST own = {channel.Obj, no_abort};
+  CO_REQUEST own = {channel.Obj, 0};
   node.Request = &own;
-  const uint32_t abort = service(channel, request, answer, found);
+  const Abort abort = service(channel, request, answer, found);
   node.Request = nullptr;
-  if (abort != no_abort) {
+  if (abort != Abort::none) {
     abort_transfer(channel, abort);
   } else if (answer.DLC != 0) {
     transmit::send(node, answer);
@@ -114,7 +114,7 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, 
 }
 
 #if USE_SDO_BLOCK
-uint32_t send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
+Abort send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
   silence(answer);
   return send_segments(channel);
 }
@@ -139,7 +139,7 @@ void configure_channel(CO_NODE& node, uint16_t number) {
   if (channel.RxId == rx_id && channel.TxId == tx_id) {
     return;
   }
-  close(channel, CO_SDO_ERR_TOS_STATE);
+  close(channel, Abort::device_state);
   channel.RxId = rx_id;
   if (channel.TxId != tx_id) {  // a response in the transmit queue keeps the previous identifier
     transmit::withdraw(node, channel.WasTxId);
@@ -194,7 +194,7 @@ void on_mode(CO_NODE& node) {
     return;
   }
   for (CO_SDO& channel : node.Sdo) {
-    close(channel, CO_SDO_ERR_TOS_STATE);
+    close(channel, Abort::device_state);
     transmit::withdraw(node, channel.TxId);
     transmit::withdraw(node, channel.WasTxId);
   }

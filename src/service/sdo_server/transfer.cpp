@@ -27,7 +27,7 @@ void count_slice(CO_SDO& channel) {
   }
   ++channel.Idle;
   if (channel.Idle == slices) {
-    abort_transfer(channel, CO_SDO_ERR_TIMEOUT);
+    abort_transfer(channel, Abort::time_out);
   } else if (has_block && channel.Idle % reminder_slices == 0) {
     repeat_acknowledge(channel);
   }
@@ -56,20 +56,20 @@ constexpr bool may_end_itself = USE_OD != 0;
 
 // Called after each Read of an object of unknown size. Once the Read has reached the end of the object, the type
 // reports the size: it becomes the size of the transfer, and limits Read to the bytes that the type has filled in.
-uint32_t learn_size(CO_SDO& channel, uint32_t position) {
+Abort learn_size(CO_SDO& channel, uint32_t position) {
   if (may_end_itself && channel.Obj == nullptr) {
-    return CO_SDO_ERR_TOS_STATE;
+    return Abort::device_state;
   }
   const uint32_t size = access::size(*channel.Obj, *channel.Node, 0);
   if (obj::is_unknown(size)) {
-    return no_abort;
+    return Abort::none;
   }
   if (size < position) {
-    return CO_SDO_ERR_INTERNAL;
+    return Abort::internal;
   }
   channel.Size = size;
   channel.Read = channel.Read < size ? channel.Read : size;
-  return no_abort;
+  return Abort::none;
 }
 
 // Calls Read or Write; access::check() has checked that the type has the function.
@@ -87,26 +87,26 @@ inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n)
 
 // Calls the type's End function, also after the request or without one (time-out). Returns the error of End as abort
 // code, if it is the end of a complete download.
-uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
+Abort tell_end(const CO_SDO& channel, CO_OBJ& obj, Abort code) {
   CO_NODE& node = *channel.Node;
   const access::Request request(node, &obj);
   const CO_ERR err = obj::end(obj, node, direction_of(channel), code);
-  const bool refused = err != CO_ERR_NONE && code == no_abort && has(channel, download);
-  return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : no_abort;
+  const bool refused = err != CO_ERR_NONE && code == Abort::none && has(channel, download);
+  return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : Abort::none;
 }
 
 }  // namespace
 
-uint32_t close(CO_SDO& channel, uint32_t code) {
+Abort close(CO_SDO& channel, Abort code) {
   CO_OBJ* const obj = channel.Obj;
   const bool has_end = access::is_begun(channel) && obj != nullptr;
   set_state(channel, State::idle);
   channel.Obj = nullptr;
-  return has_end ? tell_end(channel, *obj, code) : no_abort;
+  return has_end ? tell_end(channel, *obj, code) : Abort::none;
 }
 
-void abort_transfer(CO_SDO& channel, uint32_t code) {
-  CO_ASSERT(code != no_abort);
+void abort_transfer(CO_SDO& channel, Abort code) {
+  CO_ASSERT(code != Abort::none);
   count(channel.Node->Count.SdoAborts);
   transmit::send(*channel.Node, wire::abort_frame(channel.TxId, channel.Key, code));
   close(channel, code);
@@ -143,18 +143,18 @@ void stop_idle_timer(CO_NODE& node) {
 
 void restart(CO_SDO& channel, const CO_IF_FRM& request) {
   if (state_of(channel) != State::idle) {
-    close(channel, CO_SDO_ERR_TOS_STATE);
+    close(channel, Abort::device_state);
   }
   channel.Key = wire::multiplexer(request);
 }
 
-uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
+Abort begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
   CO_NODE& node = *channel.Node;
   if (access::is_open(node, obj, &channel)) {
-    return CO_SDO_ERR_TOS_STATE;
+    return Abort::device_state;
   }
   if (obj::extended(obj) == nullptr) {
-    return no_abort;
+    return Abort::none;
   }
   const CO_ERR err = obj::begin(obj, node, direction_of(channel), size);
   if (err != CO_ERR_NONE) {
@@ -162,11 +162,11 @@ uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
   }
   set(channel, begun);
   channel.Obj = &obj;
-  return no_abort;
+  return Abort::none;
 }
 
 // Type functions access values in the byte order of the CPU; all other functions here use the byte order of the bus.
-uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
+Abort begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   const bool swaps = !wire::host_is_little_endian && !obj::is_stream(obj);
   if (swaps && has(channel, download)) {
     wire::swap_host(data, n);
@@ -178,10 +178,10 @@ uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   if (swaps && !has(channel, download)) {
     wire::swap_host(data, n);
   }
-  return err == CO_ERR_NONE ? no_abort : access::report_failure(*channel.Node, direction_of(channel), err);
+  return err == CO_ERR_NONE ? Abort::none : access::report_failure(*channel.Node, direction_of(channel), err);
 }
 
-uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
+Abort transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
   CO_ERR err = CO_ERR_NONE;
   if (has(channel, whole)) {
     CO_ASSERT(n <= sizeof channel.Value && position <= sizeof channel.Value - n);
@@ -189,15 +189,15 @@ uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint3
     has(channel, download) ? wire::copy(value, data, n) : wire::copy(data, value, n);
   } else if (n != 0) {
     if (channel.Obj == nullptr) {
-      return CO_SDO_ERR_TOS_STATE;
+      return Abort::device_state;
     }
     err = seek_piece(channel, *channel.Obj, position);
     if (has_block && err == CO_ERR_TYPE_AGAIN && state_of(channel) == State::block_upload) {
       set(channel, behind);
-      return no_abort;
+      return Abort::none;
     }
     if (may_end_itself && channel.Obj == nullptr) {
-      return CO_SDO_ERR_TOS_STATE;
+      return Abort::device_state;
     }
     if (err == CO_ERR_NONE) {
       err = run(channel, *channel.Obj, data, n);
@@ -208,7 +208,7 @@ uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint3
     return access::report_failure(*channel.Node, direction_of(channel), err);
   }
   const bool may_end = obj::is_unknown(channel.Size) && !has(channel, download);
-  return may_end ? learn_size(channel, position) : no_abort;
+  return may_end ? learn_size(channel, position) : Abort::none;
 }
 
 }  // namespace co::sdo_server

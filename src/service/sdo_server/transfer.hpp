@@ -54,37 +54,36 @@ inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }
 
 // Services of the state machine. They process a request, fill the response, and return an abort code. [301:7.2.4.3]
 // found: object of the request, if it was found before, otherwise null
-using Service = uint32_t (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
-[[nodiscard]] uint32_t initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
-[[nodiscard]] uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
-[[nodiscard]] uint32_t initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
-[[nodiscard]] uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
-[[nodiscard]] uint32_t initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer,
-                                               CO_OBJ* found);
-[[nodiscard]] uint32_t end_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
-[[nodiscard]] uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
-[[nodiscard]] uint32_t initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer,
-                                             CO_OBJ* found);
-[[nodiscard]] uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
-[[nodiscard]] uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
-[[nodiscard]] uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+using Service = Abort (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
+[[nodiscard]] Abort initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
+[[nodiscard]] Abort download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] Abort initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
+[[nodiscard]] Abort upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] Abort initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer,
+                                            CO_OBJ* found);
+[[nodiscard]] Abort end_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] Abort end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] Abort initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
+[[nodiscard]] Abort start_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] Abort acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] Abort end_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
 
-// Ends the transfer with an abort code, or no_abort if it is complete. Calls the type's End function; its error for a
-// complete download is returned as abort code.
-uint32_t close(CO_SDO& channel, uint32_t code);
+// Ends the transfer with an abort code, or Abort::none if it is complete. Calls the type's End function; its error for
+// a complete download is returned as abort code.
+Abort close(CO_SDO& channel, Abort code);
 
 // Starts a new transfer of the object in the request; a previous transfer of the client is closed.
 void restart(CO_SDO& channel, const CO_IF_FRM& request);
 
-// Result of open(). obj is valid if abort is no_abort.
+// Result of open(). obj is valid if abort is Abort::none.
 struct Opened {
   CO_OBJ* obj;
-  uint32_t abort;
+  Abort abort;
 };
 
 // Calls the access hook: whether the client may begin this transfer of an object that exists and has the access right.
 // Returns an abort code.
-[[nodiscard]] uint32_t ask_application(CO_SDO& channel, const CO_IF_FRM& request);
+[[nodiscard]] Abort ask_application(CO_SDO& channel, const CO_IF_FRM& request);
 
 // Calls restart() and performs the checks at the begin of every transfer: object, access right, access hook. The object
 // becomes that of the request. found: the object of the request, or null if it has to be found
@@ -96,7 +95,7 @@ struct Opened {
   Opened opened = {obj, stream::check(node, channel.Key, obj, transfer)};
   node.Request->Obj = obj;
   if constexpr (USE_ACCESS_HOOK != 0) {
-    if (opened.abort == no_abort) {
+    if (opened.abort == Abort::none) {
       opened.abort = ask_application(channel, request);
     }
   }
@@ -110,18 +109,18 @@ void continue_transfer(CO_SDO& channel, CO_OBJ& obj, State state);
 void stop_idle_timer(CO_NODE& node);
 
 // Performs the checks at the begin of every segment. channel.Obj is null if the entry was moved.
-[[nodiscard]] inline uint32_t check_segment(const CO_SDO& channel, const CO_IF_FRM& request) {
+[[nodiscard]] inline Abort check_segment(const CO_SDO& channel, const CO_IF_FRM& request) {
   if (channel.Obj == nullptr) {
-    return CO_SDO_ERR_TOS_STATE;
+    return Abort::device_state;
   }
-  return wire::toggle(request) != (channel.Flags & toggled) ? CO_SDO_ERR_TBIT : no_abort;
+  return wire::toggle(request) != (channel.Flags & toggled) ? Abort::toggle_bit : Abort::none;
 }
 
 // Sends an abort to the client and closes the transfer.
-void abort_transfer(CO_SDO& channel, uint32_t code);
+void abort_transfer(CO_SDO& channel, Abort code);
 
 // Reserves a stream for this channel (one channel at a time), and calls the type's Begin function.
-[[nodiscard]] uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size);
+[[nodiscard]] Abort begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size);
 
 // Returns whether the object is transferred as a value, as a whole. Other objects are transferred in the pieces that
 // arrive.
@@ -130,9 +129,9 @@ void abort_transfer(CO_SDO& channel, uint32_t code);
 }
 
 // Returns an abort code if the download cannot have this total length.
-[[nodiscard]] uint32_t check_total(CO_SDO& channel, uint32_t total);
+[[nodiscard]] Abort check_total(CO_SDO& channel, uint32_t total);
 // Completes a download: writes a value and closes the transfer.
-[[nodiscard]] uint32_t finish_download(CO_SDO& channel);
+[[nodiscard]] Abort finish_download(CO_SDO& channel);
 
 // Sets Size to the total length before the last piece of n bytes is written, for extensions that need it (co_od.h). An
 // announced size is not changed; it is compared afterwards.
@@ -145,8 +144,8 @@ inline void set_total([[maybe_unused]] CO_SDO& channel, [[maybe_unused]] uint32_
 // Read or write in the direction of the transfer, and return an abort code. begin_data: the first bytes, or none to
 // open a stream. transfer_piece: a piece, up to position Read; it may be less than n bytes at the end of an object of
 // unknown size. In a block upload transfer_piece sets the flag behind while the type has not reached the position.
-[[nodiscard]] uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n);
-[[nodiscard]] uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n);
+[[nodiscard]] Abort begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n);
+[[nodiscard]] Abort transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n);
 
 // Block transfer --------------------------------------------------------------------------------------------------
 
@@ -160,7 +159,7 @@ inline void set_total([[maybe_unused]] CO_SDO& channel, [[maybe_unused]] uint32_
 }
 
 // Checks whether the object can be uploaded by block transfer. Returns an abort code.
-[[nodiscard]] uint32_t check_block_upload(const CO_SDO& channel, const CO_OBJ& obj, const CO_IF_FRM& request);
+[[nodiscard]] Abort check_block_upload(const CO_SDO& channel, const CO_OBJ& obj, const CO_IF_FRM& request);
 // Returns whether the size is above the client's protocol switch threshold.
 [[nodiscard]] inline bool is_worth_block(uint32_t size, const CO_IF_FRM& request) {
   const uint8_t switch_threshold = request.Data[5];
@@ -170,7 +169,7 @@ void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request);
 void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 
 // Sends segments of a block upload while there are any and transmit::offer() accepts them. Returns an abort code.
-[[nodiscard]] uint32_t send_segments(CO_SDO& channel);
+[[nodiscard]] Abort send_segments(CO_SDO& channel);
 
 // Stores a segment of a block download, and restarts the time-out if the segment belongs to the transfer. Returns true
 // if it ends the block: end_block() then responds.

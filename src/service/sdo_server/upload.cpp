@@ -4,14 +4,14 @@
 namespace co::sdo_server {
 namespace {
 
-uint32_t longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+Abort longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_FRM& request, CO_IF_FRM& answer) {
   const bool value = is_value(channel, obj);
   if (value) {
     set(channel, whole);
   }
   continue_transfer(channel, obj, by_block ? State::block_upload_ready : State::upload);
-  const uint32_t abort = begin_data(channel, obj, channel.Value, value ? channel.Size : 0);
-  if (abort != no_abort) {
+  const Abort abort = begin_data(channel, obj, channel.Value, value ? channel.Size : 0);
+  if (abort != Abort::none) {
     return abort;
   }
   const bool sized = !obj::is_unknown(channel.Size);
@@ -20,14 +20,14 @@ uint32_t longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_
   if (has_block && by_block) {
     begin_block_upload(channel, request);
   }
-  return no_abort;
+  return Abort::none;
 }
 
-uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found, Mode mode) {
+Abort initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found, Mode mode) {
   CO_NODE& node = *channel.Node;
   const Opened opened = open(channel, request, CO_OBJ_UPLOAD, found);
-  uint32_t abort = opened.abort;
-  if (abort != no_abort) {
+  Abort abort = opened.abort;
+  if (abort != Abort::none) {
     return abort;
   }
   CO_OBJ& obj = *opened.obj;
@@ -41,10 +41,10 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
     by_block = is_worth_block(size, request);
     abort = check_block_upload(channel, obj, request);
   }
-  if (abort == no_abort && obj::is_stream(obj)) {
+  if (abort == Abort::none && obj::is_stream(obj)) {
     abort = begin_stream(channel, obj, size);
   }
-  if (abort != no_abort) {
+  if (abort != Abort::none) {
     return abort;
   }
   if (by_block || size - 1 >= wire::expedited_bytes) {
@@ -52,41 +52,41 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
   }
   wire::put_reply(answer, wire::expedited_upload_response(size), request);
   abort = begin_data(channel, obj, answer.Data + 4, size);
-  return abort == no_abort && access::is_begun(channel) ? close(channel, no_abort) : abort;
+  return abort == Abort::none && access::is_begun(channel) ? close(channel, Abort::none) : abort;
 }
 
 }  // namespace
 
-uint32_t initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
+Abort initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
   return initiate(channel, request, answer, found, Mode::segmented);
 }
 
 #if USE_SDO_BLOCK
-uint32_t initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
+Abort initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
   if (!has_buffer(channel)) {
     restart(channel, request);
-    return CO_SDO_ERR_CMD;
+    return Abort::command;
   }
   return initiate(channel, request, answer, found, Mode::block);
 }
 #endif
 
-uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
-  uint32_t abort = check_segment(channel, request);
-  if (abort != no_abort) {
+Abort upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
+  Abort abort = check_segment(channel, request);
+  if (abort != Abort::none) {
     return abort;
   }
   const uint32_t position = channel.Num;
   const uint32_t left = channel.Size - position;
   abort = transfer_piece(channel, position, answer.Data + 1, left < wire::segment_bytes ? left : wire::segment_bytes);
-  if (abort != no_abort) {
+  if (abort != Abort::none) {
     return abort;
   }
   channel.Num = channel.Read;
   const bool last = channel.Num == channel.Size;
   answer.Data[0] = wire::segment(channel.Flags & toggled, channel.Num - position, last);
   channel.Flags ^= toggled;
-  return last ? close(channel, no_abort) : no_abort;
+  return last ? close(channel, Abort::none) : Abort::none;
 }
 
 }  // namespace co::sdo_server
