@@ -196,6 +196,21 @@ TEST_CASE("parameters: groups whose variables overlap are accepted, each with it
   node.ask(save_all, all_saved);
 }
 
+#if USE_LSS
+TEST_CASE("parameters: a group that 1010h does not list is stored after the record of LSS") {
+  GroupDevice device;
+  CO_PARA unlisted = {200, sizeof device.ram[0], &device.ram[0], nullptr, CO_RESET_NODE, nullptr, CO_PARA___E};
+  Fixture node(device.setup());
+  node.call([&] { CHECK(COLssNvmStore(&node.node, 300, 250000, 5) == CO_ERR_NONE); });
+  std::uint32_t baud = 0;
+  std::uint8_t id = 0;
+  node.call([&] { CHECK(COLssNvmLoad(&node.node, 300, &baud, &id) == CO_ERR_NONE); });
+  CHECK(baud == 250000);
+  CHECK(id == 5);
+  node.call([&] { CHECK(COParaStore(&unlisted, &node.node) == CO_ERR_NONE); });
+}
+#endif
+
 // Damaged records -------------------------------------------------------------------------------------------------
 
 struct Recovered {

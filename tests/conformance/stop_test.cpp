@@ -74,8 +74,10 @@ TEST_CASE("stop: within the change to Initialisation in CONodeInit() it leaves t
   callbacks().mode_change = [&](CO_NMT*, CO_MODE mode) {
     if (mode == CO_INIT) CONodeStop(&node.node);
   };
+  const unsigned closes = node.can.closes;
   node.init_again();
   CHECK_FALSE(node.can.on_bus);
+  CHECK(node.can.closes == closes + 1);
   check_stopped(node);
 }
 
@@ -124,6 +126,15 @@ TEST_CASE("stop: each call reads and drops one pending frame; nothing is sent an
   CHECK(node.mode() == CO_INVALID);
   CHECK(passed_on == 0);
   node.silent();
+}
+
+TEST_CASE("stop: in the driver's Read it drops the frame that is being read, and works at once") {
+  Fixture node;
+  node.can.on_read = [&] { CONodeStop(&node.node); };
+  node.rx("000#0101");
+  CHECK(node->State == 0);
+  CHECK_FALSE(node.can.on_bus);
+  check_stopped(node);
 }
 
 TEST_CASE("stop: a node that was never initialised reads no frame") {

@@ -38,6 +38,9 @@ struct Fixture::Drivers {
   static std::int16_t can_read(void* ctx, CO_IF_FRM* frm) {
     const OutsideStack outside;
     FakeCan& can = of(ctx).can;
+    if (can.on_read) {
+      can.on_read();
+    }
     if (can.to_node.empty()) {
       return can.read_result;
     }
@@ -62,7 +65,10 @@ struct Fixture::Drivers {
     return sizeof(CO_IF_FRM);
   }
   static void can_reset(void* ctx) { ++of(ctx).can.resets; }
-  static void can_close(void* ctx) { of(ctx).can.on_bus = false; }
+  static void can_close(void* ctx) {
+    of(ctx).can.on_bus = false;
+    ++of(ctx).can.closes;
+  }
   static void can_filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
     const OutsideStack outside;
     of(ctx).can.filter_off_bus |= !of(ctx).can.on_bus;

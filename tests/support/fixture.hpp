@@ -185,9 +185,11 @@ struct FakeCan {
   std::uint64_t refuse_to = 0;
   std::int16_t refusal = 0;  ///< 0: busy, -1: error
   bool has_refused = false;
-  std::int16_t read_result = 0;  ///< result of Read without a frame
+  std::int16_t read_result = 0;   ///< result of Read without a frame
+  std::function<void()> on_read;  ///< called by Read
   unsigned init_calls = 0;
   unsigned resets = 0;
+  unsigned closes = 0;
   std::uint32_t baud = 0;
   bool on_bus = false;
 
