@@ -43,6 +43,7 @@
 #include "co_obj.h"
 #include "co_tmr.h"
 #include "co_types.h"
+#include "lexican/detail/faults.h"
 #include "lexican/detail/needs.h"
 
 #ifdef __cplusplus
@@ -132,7 +133,6 @@ typedef struct CO_EMCY_USR_T {
 #define CO_EMCY_STORAGE (1 + (CO_EMCY_N - 1) / 8)
 
 /// \cond internal
-#define CO_EMCY_FAULT_N (10 + (USE_MPDO ? 1 : 0) + (CO_SRDO_N > 0 ? 2 : 0))  // kinds of errors that the stack detects
 #define CO_EMCY_HOLD_N 2  // kinds of these that may occur with every frame (8110h, 8150h)
 
 typedef struct CO_EMCY_HIST_T {                         // ring of entries of 1003h

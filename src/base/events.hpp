@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events that a service passes to the rest of the node. Services do not call each other: the table of node/services.cpp
+// Events that a part passes to the rest of the node. Parts do not call each other: the table of node/parts.hpp
 // passes events on.
 #pragma once
 
@@ -61,6 +61,12 @@ inline void defer(CO_NODE& node, unsigned what) { node.Pending = static_cast<uin
 // Removes deferred work that is about to run.
 inline void remove(CO_NODE& node, unsigned what) { node.Pending = static_cast<uint16_t>(node.Pending & ~what); }
 
+// Returns the deferred work that may run now, of that in what: TPDOs are not sent while OdLock is held.
+[[nodiscard]] inline unsigned runnable(const CO_NODE& node, unsigned what) {
+  const unsigned held = node.OdLocked != 0 ? unsigned{send_tpdos} : 0U;
+  return node.Pending & what & ~held;
+}
+
 // Resets that are requested while the node is being initialised or started are dropped (forget_resets()): the
 // initialisation in progress includes them.
 inline constexpr uint8_t resets = reset_node | reset_communication | commanded;
@@ -70,26 +76,12 @@ inline constexpr uint8_t messages = send_emcy | send_tpdos;
 inline constexpr uint16_t of_mainline = resets | overrun;
 inline void forget_resets(CO_NODE& node) { remove(node, resets); }
 
-// Communication faults, each with an EMCY error code and bits of the error register. [301:7.2.7]
+// Communication faults, each with an EMCY error code (lexican/detail/faults.h).
 enum class Fault : uint8_t {
-  overrun,     // 8110h
-  collision,   // 8150h, another node uses a CAN-ID of this node
-  passive,     // 8120h
-  heartbeat,   // 8130h, a node is missing
-  life_guard,  // 8130h, the NMT master is missing
-  recovered,   // 8140h, from bus-off
-  pdo_short,   // 8210h
-  pdo_long,    // 8220h
-#if USE_MPDO
-  pdo_unknown,  // 8230h, the destination object of an MPDO does not exist
-#endif
-  sync_length,  // 8240h
-  pdo_timeout,  // 8250h
-#if CO_SRDO_N > 0
-  srdo_configuration,  // 6300h
-  srdo,                // 8200h
-#endif
-  count
+#define CO_NAME(fault, code, bit, led) fault,
+  CO_FAULTS(CO_NAME)
+#undef CO_NAME
+      count
 };
 
 // Reports that a fault has occurred (raise()) or has ended (resolve()). Faults are counted: each raise() needs exactly

@@ -12,10 +12,6 @@ namespace {
 
 constexpr uint8_t end = CO_ROUTE_CLASS_N;
 
-constexpr uint16_t owner(Service service, uint16_t number) {
-  return static_cast<uint16_t>((static_cast<unsigned>(service) << 12) | number);
-}
-
 // Adds by to the positions of the first routes of all function codes behind that of the identifier.
 void shift_starts(CO_ROUTES& routes, uint32_t identifier, int by) {
   for (unsigned n = class_of(identifier) + 1U; n <= end; ++n) {
@@ -62,27 +58,26 @@ void clear(CO_NODE& node) {
   node.Routes.Id[0] = no_identifier;
 }
 
-void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
+void add(CO_NODE& node, uint32_t identifier, uint16_t owner) {
   CO_ROUTES& routes = node.Routes;
-  CO_ASSERT(service < Service::count && number_of(number) == number);
+  CO_ASSERT(receiver_of(owner) < receivers);
   CO_ASSERT(routes.Start[end] < CO_ROUTE_N);
-  const uint16_t whose = owner(service, number);
   unsigned place = routes.Start[end];
   routes.Id[place + 1] = no_identifier;
-  for (; place > 0 && is_behind(routes, place - 1, identifier, whose); --place) {
+  for (; place > 0 && is_behind(routes, place - 1, identifier, owner); --place) {
     move(routes, place, place - 1);
   }
   routes.Id[place] = identifier;
-  routes.Owner[place] = whose;
+  routes.Owner[place] = owner;
   shift_starts(routes, identifier, +1);
   CO_ASSERT(is_sorted(routes));
 }
 
-void remove(CO_NODE& node, Service service, uint16_t number) {
+void remove(CO_NODE& node, uint16_t owner) {
   CO_ROUTES& routes = node.Routes;
   const unsigned num = routes.Start[end];
   unsigned place = 0;
-  while (place < num && routes.Owner[place] != owner(service, number)) {
+  while (place < num && routes.Owner[place] != owner) {
     ++place;
   }
   if (place == num) {
@@ -96,10 +91,10 @@ void remove(CO_NODE& node, Service service, uint16_t number) {
   CO_ASSERT(is_sorted(routes));
 }
 
-void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
-  remove(node, service, number);
+void change(CO_NODE& node, uint32_t identifier, uint16_t owner) {
+  remove(node, owner);
   if (identifier != wire::no_frame) {
-    add(node, identifier, service, number);
+    add(node, identifier, owner);
   }
 }
 
@@ -126,32 +121,10 @@ void publish(const CO_NODE& node) {
 #else
 
 namespace co::routes {
-namespace {
-
-struct Places {
-  uint16_t first[static_cast<unsigned>(Service::count) + 1];
-};
-constexpr Places count_places() {
-  Places places = {};
-  for (unsigned n = 0; n < static_cast<unsigned>(Service::count); ++n) {
-    places.first[n + 1] = static_cast<uint16_t>(places.first[n] + places_of(static_cast<Service>(n)));
-  }
-  return places;
-}
-constexpr Places places = count_places();
-static_assert(places.first[static_cast<unsigned>(Service::count)] <= CO_ROUTE_PLACES);
-
-}  // namespace
-
 void clear(CO_NODE& node) {
   for (uint32_t& id : node.Routes.Id) {
     id = wire::no_frame;
   }
-}
-
-void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
-  CO_ASSERT(service < Service::count && number < places_of(service));
-  node.Routes.Id[places.first[static_cast<unsigned>(service)] + number] = identifier;
 }
 
 // Passes a sorted copy of the identifiers, which is on the CPU's stack.
@@ -159,9 +132,9 @@ void publish(const CO_NODE& node) {
   if (!port::can_wants_filter(node)) {
     return;
   }
-  uint32_t sorted[CO_ROUTE_PLACES];
+  uint32_t sorted[CO_ROUTE_N];
   uint16_t num = 0;
-  for (unsigned place = 0; place < CO_ROUTE_PLACES; ++place) {
+  for (unsigned place = 0; place < CO_ROUTE_N; ++place) {
     const uint32_t identifier = node.Routes.Id[place];
     if (identifier != wire::no_frame) {
       uint16_t n = num++;

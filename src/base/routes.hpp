@@ -1,132 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
-// Routes: the services that receive the frames of an identifier. The table is sorted by identifier; the first route of
+// Routes: the parts that receive the frames of an identifier. The table is sorted by identifier; the first route of
 // each function code is stored beside it, so that an unrelated frame is found to have no consumer after one or two
 // comparisons.
 #pragma once
 
+#include "co_assert.h"
 #include "co_core.h"
 
-namespace co::routes {
+namespace co {
 
-// Service that owns a route: the services that receive frames, in the order of the table of node/services.cpp.
-enum class Service : uint8_t {
-  nmt,
-  sdo_server,
-#if USE_CSDO
-  sdo_client,
-#endif
-  error_control,
-#if CO_HBCONS_N > 0
-  heartbeat_consumer,
-#endif
-#if USE_SYNC
-  sync,
-#endif
-#if USE_TIME
-  time,
-#endif
-#if USE_MPDO
-  mpdo,
-#endif
-#if CO_RPDO_N > 0
-  rpdo,
-#endif
-#if CO_TPDO_N > 0
-  tpdo,
-#endif
-#if USE_GFC
-  gfc,
-#endif
-#if CO_SRDO_N > 0
-  srdo,
-#endif
-#if CO_EMCY_CONS_N > 0
-  emcy_consumer,
-#endif
-#if USE_LSS
-  lss,
-#endif
-#if USE_LSS_MASTER
-  lss_master,
-#endif
-  count
+// Parts of the stack, in the order of their list (lexican/detail/parts.h).
+enum class PartId : uint8_t {
+#define CO_NAME(part, instances, routes, senders, permission) part,
+  CO_PARTS(CO_NAME)
+#undef CO_NAME
+      count
 };
 
-// Number of instances of each service that receive frames; their numbers are lower.
-inline constexpr uint16_t instances[] = {
-    1,  // nmt
-    CO_SSDO_N,
-#if USE_CSDO
-    CO_CSDO_N,
-#endif
-    1,  // error_control
-#if CO_HBCONS_N > 0
-    CO_HBCONS_N + 1,  // sub-indices
-#endif
-#if USE_SYNC
-    1,
-#endif
-#if USE_TIME
-    1,
-#endif
-#if USE_MPDO
-    CO_RPDO_N > 0 ? CO_RPDO_N : 1,
-#endif
-#if CO_RPDO_N > 0
-    CO_RPDO_N,
-#endif
-#if CO_TPDO_N > 0
-    USE_PDO_RTR != 0 ? CO_TPDO_N : 0,
-#endif
-#if USE_GFC
-    1,
-#endif
-#if CO_SRDO_N > 0
-    2 * CO_SRDO_N,
-#endif
-#if CO_EMCY_CONS_N > 0
-    CO_EMCY_CONS_N + 1,  // node-IDs
-#endif
-#if USE_LSS
-    1,
-#endif
-#if USE_LSS_MASTER
-    1,
-#endif
-};
-static_assert(sizeof instances == sizeof(uint16_t) * static_cast<unsigned>(Service::count));
+namespace routes {
 
-constexpr uint16_t places_of(Service service) { return instances[static_cast<unsigned>(service)]; }
+// Number of routes of each part; 0 for one that the configuration leaves out.
+inline constexpr uint16_t routes_of[] = {
+#define CO_ROUTES(part, instances, routes, senders, permission) (instances) != 0 ? (routes) : 0,
+    CO_PARTS(CO_ROUTES)
+#undef CO_ROUTES
+};
+
+// Returns the number of the parts before this one that have routes: the number of this one among the receivers.
+constexpr unsigned receivers_before(PartId part) {
+  unsigned number = 0;
+  for (unsigned n = 0; n < static_cast<unsigned>(part); ++n) {
+    number += routes_of[n] != 0 ? 1U : 0U;
+  }
+  return number;
+}
+inline constexpr unsigned receivers = receivers_before(PartId::count);
+
+// Returns the number of routes of the parts before this one.
+constexpr unsigned routes_before(PartId part) {
+  unsigned number = 0;
+  for (unsigned n = 0; n < static_cast<unsigned>(part); ++n) {
+    number += routes_of[n];
+  }
+  return number;
+}
+static_assert(routes_before(PartId::count) == CO_ROUTE_N);
+
+// Returns the owner of a route, an instance (number) of a part: where routes are sorted, the number of its part and its
+// own; otherwise the position of its only route.
+template <PartId part>
+[[nodiscard]] constexpr uint16_t owner(unsigned number) {
+  constexpr unsigned base = CO_ROUTES_SORTED ? receivers_before(part) << 12 : routes_before(part);
+  return static_cast<uint16_t>(base + number);
+}
 
 void clear(CO_NODE& node);
 
 #if CO_ROUTES_SORTED
 // Adds a route. identifier: as in a frame (CO_IF_FRM_EXT included). Routes of the same identifier are adjacent, in the
 // order of their owners.
-void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
+void add(CO_NODE& node, uint32_t identifier, uint16_t owner);
 
-// Removes the route of an instance (number) of a service, if there is one.
-void remove(CO_NODE& node, Service service, uint16_t number);
+// Removes the route of an owner, if there is one.
+void remove(CO_NODE& node, uint16_t owner);
 
-// Replaces the route of an instance of a service. identifier: wire::no_frame to remove it only.
-void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
+// Replaces the route of an owner. identifier: wire::no_frame to remove it only.
+void change(CO_NODE& node, uint32_t identifier, uint16_t owner);
 
 #else
-// Returns the position of the first route of an identifier that is not before from; CO_ROUTE_PLACES if there is none.
+// Returns the position of the first route of an identifier that is not before from; CO_ROUTE_N if there is none.
 [[nodiscard]] inline unsigned find(CO_NODE& node, uint32_t identifier, unsigned from) {
   uint32_t* const ids = node.Routes.Id;
-  ids[CO_ROUTE_PLACES] = identifier;
+  ids[CO_ROUTE_N] = identifier;
   while (ids[from] != identifier) {
     ++from;
   }
   return from;
 }
 
-// Sets the identifier of an instance (number) of a service. identifier: wire::no_frame for none
-void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
-inline void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
-  change(node, identifier, service, number);
+// Sets the identifier of an owner. identifier: wire::no_frame for none
+inline void change(CO_NODE& node, uint32_t identifier, uint16_t owner) {
+  CO_ASSERT(owner < CO_ROUTE_N);
+  node.Routes.Id[owner] = identifier;
 }
+inline void add(CO_NODE& node, uint32_t identifier, uint16_t owner) { change(node, identifier, owner); }
 #endif
 
 // Passes the identifiers of all routes to the CAN driver, if it has a Filter function.
@@ -176,12 +133,13 @@ inline constexpr uint32_t no_identifier = ~0U;
 }
 
 // Returns the position of the next route of the identifier behind the route of owner, or nowhere. place: position of
-// that route before its service has processed the frame, which may have changed the routes.
+// that route before its part has processed the frame, which may have changed the routes.
 [[nodiscard]] unsigned next(const CO_NODE& node, unsigned place, uint32_t identifier, uint16_t owner);
 
-[[nodiscard]] constexpr uint8_t service_of(uint16_t owner) { return static_cast<uint8_t>(owner >> 12); }
+[[nodiscard]] constexpr uint8_t receiver_of(uint16_t owner) { return static_cast<uint8_t>(owner >> 12); }
 [[nodiscard]] constexpr uint16_t number_of(uint16_t owner) { return owner & 0x0FFFU; }
 
 #endif
 
-}  // namespace co::routes
+}  // namespace routes
+}  // namespace co

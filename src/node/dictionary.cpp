@@ -5,9 +5,23 @@
 #include "co_core.h"
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
-#include "node/services.hpp"
+#include "dictionary/lock.hpp"
+#include "node/parts.hpp"
 
 using namespace co;
+
+namespace {
+
+// Reads parameters from the dictionary again and finds the mapped objects of PDOs, SRDOs and recorders in it.
+// Meanwhile, TPDOs that a type function requests are marked, as their objects may not have been found yet.
+void remap(CO_NODE& node) {
+  parts::run<&Part::of_halt>(node);
+  const dict::Lock lock(node);
+  parts::run<&Part::of_remap>(node);
+  event::defer(node, event::configure);
+}
+
+}  // namespace
 
 extern "C" int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   if (cod == nullptr || node == nullptr || root == nullptr || max == 0) {
@@ -21,7 +35,7 @@ extern "C" int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint1
   const CO_ERR err = dict::set_table(*cod, *node, root, max);
   access::close_moved(*node);  // SDO transfers whose entry is no longer at the same address
   if ((node->State & event::running) != 0) {
-    services::remap(*node);
+    remap(*node);
   }
   if (err != CO_ERR_NONE) {
     return -1;

@@ -3,7 +3,7 @@
 #include "base/timer.hpp"
 #include "co_core.h"
 #include "dictionary/dict.hpp"
-#include "node/services.hpp"
+#include "node/parts.hpp"
 
 namespace co::error {
 namespace {
@@ -58,8 +58,8 @@ void add_hints(Text& text, CO_NODE& node) {
     return;
   }
   if (node.Nmt.Mode == CO_INIT) {
-    text.add(services::is_started(node) ? "; unconfigured: it waits for a node-ID by LSS"
-                                        : "; CONodeStart() has not been called");
+    text.add(parts::ask<&Part::of_is_waiting>(false, node) ? "; unconfigured: it waits for a node-ID by LSS"
+                                                           : "; CONodeStart() has not been called");
   }
   if (node.Baudrate == 0) {
     text.add("; the bit rate is 0 (CO_NODE_SPEC.Baudrate)");

@@ -12,9 +12,7 @@
 #include "co_core.h"
 #include "dictionary/dict.hpp"
 #include "hal/port.hpp"
-#include "node/services.hpp"
-#include "service/nmt/nmt.hpp"
-#include "service/pdo/pdo.hpp"
+#include "node/parts.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 #include "wire/nmt.hpp"
@@ -42,19 +40,19 @@ void check_mandatory_objects(CO_NODE& node) {
 [[nodiscard]] bool initialise(CO_NODE& node, CO_NMT_RESET type) {
   routes::clear(node);
   dict::set_power_on_values(node, type);
-  services::load(node, type);
+  parts::run<&Part::of_load>(node, type);
   const dict::Initialised initialised = dict::init_objects(node.Dict, node);
   if (initialised.err != CO_ERR_NONE) {
     error::report(node, CO_ERR_OBJ_INIT, initialised.key);
   }
-  services::init(node);
+  parts::run<&Part::of_init>(node);
   routes::publish(node);
   return node.Nmt.Next == CO_INIT;
 }
 
 // Sends the boot-up message and requests Pre-operational; a node without node-ID stays in Initialisation. [305]
 void start(CO_NODE& node) {
-  if (!services::awaits_node_id(node)) {
+  if (!parts::ask<&Part::of_awaits_node_id>(false, node)) {
     nmt::boot(node);
   }
 }
@@ -63,7 +61,7 @@ void start(CO_NODE& node) {
 // the SDO responses among them, as it may have been requested by a write, and NMT commands to other nodes.
 void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
   const bool was_initialising = node.Nmt.Mode == CO_INIT;
-  const bool waits_for_start = was_initialising && !services::is_started(node);
+  const bool waits_for_start = was_initialising && !parts::ask<&Part::of_is_waiting>(false, node);
   commanded ? transmit::clear(node) : transmit::keep_responses(node);
   event::request_mode(node, CO_INIT);
   event::enter_requested_mode(node);
@@ -74,8 +72,7 @@ void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
     transmit::drop_behind_responses(node);  // messages of the last state
   }
   port::can_reset(node);
-  services::save_changes(node);
-  services::take_node_id(node);
+  parts::run<&Part::of_reset>(node);
   const bool is_ready = initialise(node, type);
   event::forget_resets(node);
   if (is_ready && !waits_for_start) {
@@ -89,8 +86,7 @@ void run_reset(CO_NODE& node, uint8_t pending) {
   const bool commanded = (pending & event::commanded) != 0;
   const CO_NMT_RESET type = (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM;
   if (type == CO_RESET_NODE) {
-    services::forget_application(node);
-    services::load_node_id(node);
+    parts::run<&Part::of_reset_node>(node);
   }
   reset(node, type, commanded);
   if (commanded && node.Nmt.Mode != CO_INVALID) {
@@ -98,23 +94,17 @@ void run_reset(CO_NODE& node, uint8_t pending) {
   }
 }
 
-// Returns the deferred work that may run now, of that in what: TPDOs are not sent while OdLock is held.
-inline unsigned runnable(const CO_NODE& node, unsigned what) {
-  const unsigned held = node.OdLocked != 0 ? event::send_tpdos : 0;
-  return node.Pending & what & ~held;
-}
-
 // Runs the deferred work whose bits are set in what, and the work that it causes. A reset configures everything.
 void run_pending(CO_NODE& node, unsigned what) {
   while (node.State == event::running) {
-    const unsigned pending = runnable(node, what);
+    const unsigned pending = event::runnable(node, what);
     if (pending == 0) {
       return;
     }
     const event::Serving serving(node);
     event::remove(node, pending & ~unsigned{event::messages | event::mode});
     if ((pending & event::configure) != 0 && (pending & event::resets) == 0 && node.Nmt.Next != CO_INVALID) {
-      services::configure(node);
+      parts::run<&Part::of_configure>(node);
       routes::publish(node);
     }
     event::send_deferred(node);
@@ -200,26 +190,7 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT* ext) 
     take_drivers(node.If, *ext);
   }
   node.Nmt.Node = &node;
-#if USE_EMCY
-  node.Emcy.Node = &node;
-  node.Emcy.Root = spec.EmcyCode;
-#endif
-#if CO_RPDO_N > 0
-  for (CO_RPDO& pdo : node.RPdo) {
-    pdo.Node = &node;
-    tmr::assign_to_real_time(pdo.Tmr);
-  }
-#endif
-#if CO_TPDO_N > 0
-  for (CO_TPDO& pdo : node.TPdo) {
-    pdo.Node = &node;
-    tmr::assign_to_real_time(pdo.Tmr);
-  }
-#endif
-#if USE_SYNC
-  tmr::assign_to_real_time(node.Sync.Tmr);
-  tmr::assign_to_real_time(node.Sync.WindowTmr);
-#endif
+  parts::run<&Part::of_take_over>(node, spec);
 }
 
 [[gnu::noinline]] void report(CO_NODE& node, CO_CAN_EVENT event) {
@@ -249,7 +220,7 @@ void resume_sending(CO_NODE& node) {
   transmit::flush(node);
   if ((USE_SDO_BLOCK != 0 || USE_MPDO != 0) && node.Paused != 0) {
     const event::Serving serving(node);
-    services::on_free(node);
+    parts::on_free(node);
   }
 }
 
@@ -294,9 +265,9 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
   }
 #if CO_ROUTES_SORTED
   const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
-  const bool is_claimed = place != routes::nowhere && services::dispatch(node, frame, place);
+  const bool is_claimed = place != routes::nowhere && parts::dispatch(node, frame, place);
 #else
-  const bool is_claimed = services::dispatch(node, frame);
+  const bool is_claimed = parts::dispatch(node, frame);
 #endif
   if (is_claimed) {
     return;
@@ -340,7 +311,7 @@ void drop_received(CO_NODE& node) {
 // Processes a frame in the real-time thread. A frame that the NMT state forbids now is dropped: left to
 // CONodeProcess(), it would be processed after newer frames.
 void serve_at_once(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
-  if (place == routes::nowhere || !services::dispatch(node, frame, place)) {
+  if (place == routes::nowhere || !parts::dispatch(node, frame, place)) {
     count(node.Count.Unclaimed);
   }
 }
@@ -354,7 +325,7 @@ void leave(CO_NODE& node, const CO_IF_FRM& frame) {
 
 // Returns whether a frame is left to CONodeProcess(). place: position of its first route
 bool is_for_mainline(const CO_NODE& node, unsigned place) {
-  return place == routes::nowhere ? node.Ext->Foreign : !services::is_real_time(node, place);
+  return place == routes::nowhere ? node.Ext->Foreign : !parts::is_real_time(node, place);
 }
 
 // Processes a received frame, or leaves it to CONodeProcess().
@@ -395,14 +366,7 @@ void event::end_call(CO_NODE& node, uint8_t before) {
   run_deferred(node);
 }
 
-void event::send_deferred(CO_NODE& node) {
-  if ((node.Pending & send_emcy) != 0) {
-    services::send_emcy(node);
-  }
-  if (node::runnable(node, send_tpdos) != 0) {
-    (void)pdo::send_marked(node);
-  }
-}
+void event::send_deferred(CO_NODE& node) { parts::send_deferred(node); }
 
 void node::init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext, AddDrivers add_drivers) {
   ASSERT_PTR_FATAL(node);
@@ -415,7 +379,7 @@ void node::init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext,
   if (node->Error != CO_ERR_NONE) {
     return;
   }
-  services::begin_lss(*node);
+  parts::run<&Part::of_begin>(*node);
   if (dict::set_table(node->Dict, *node, spec->Dict, spec->DictLen) != CO_ERR_NONE) {
     error::report(*node, CO_ERR_DICT_INIT, dict::fault_key_of(node->Dict));
     return;

@@ -205,6 +205,11 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
   return last;
 }
 
+void load_groups(CO_NODE& node, CO_NMT_RESET type) {
+  (void)load(node, CO_RESET_NODE, type == CO_RESET_NODE ? &CO_PARA::Size : &CO_PARA::ComSize);
+  (void)load(node, CO_RESET_COM, &CO_PARA::Size);
+}
+
 void save_changes(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   const budget::Command command(node);

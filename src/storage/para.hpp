@@ -2,6 +2,7 @@
 // Parameter groups: 1010h and 1011h, loading and storing. [301:7.5.2.13, 7.5.2.14]
 #pragma once
 
+#include "base/part.hpp"
 #include "storage/store.hpp"
 
 namespace co::para {
@@ -10,6 +11,9 @@ namespace co::para {
 // number of bytes to load: Size (all) or ComSize (the objects of the communication profile). In Initialisation, starts
 // the timer that stores autonomous groups. Returns the last error, which is also the node's error.
 CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member);
+
+// Loads the groups of a reset, as its type requires.
+void load_groups(CO_NODE& node, CO_NMT_RESET type);
 
 // Stores the autonomous groups that have changed, within the budget. Timer action: called each CO_PARA_PERIOD, and
 // before a reset loads the groups.
@@ -23,5 +27,7 @@ void on_write(CO_NODE* node, const CO_OBJ* obj);
 // Stores data of a group; null: the request to use the defaults.
 [[nodiscard]] CO_ERR save(CO_NODE& node, const CO_PARA& group, const uint8_t* data,
                           store::Cause cause = store::Cause::command);
+
+inline constexpr Part part = Part().load(load_groups).mode(on_mode).reset([](CO_NODE& node) { save_changes(&node); });
 
 }  // namespace co::para

@@ -61,7 +61,8 @@ class Tree:
                 if reason:
                     found.append(f"{file.relative_to(self.root)} includes {name}: {reason}")
             if directory.startswith("src/"):
-                found += [f"{file.relative_to(self.root)} defines the macro {m}" for m in DEFINE.findall(text)]
+                found += [f"{file.relative_to(self.root)} defines the macro {m}" for m in DEFINE.findall(text)
+                          if f"#undef {m}\n" not in text]
         return found
 
     def in_include(self, file, name, system):
@@ -134,7 +135,7 @@ CLEAN = {
     "src/hal/port.hpp": "",
     "src/dictionary/dict.cpp": '#include "wire/sdo.hpp"\n#include "co_cfg.h"\n',
     "src/dictionary/dict.hpp": "",
-    "src/dictionary/types/string.cpp": '#include "dictionary/dict.hpp"\n',
+    "src/dictionary/types/string.cpp": '#include "dictionary/dict.hpp"\n#define CO_ROW(a) a,\n#undef CO_ROW\n',
     "src/storage/para.cpp": '#include "dictionary/dict.hpp"\n',
     "src/service/nmt/nmt.hpp": '#include "dictionary/dict.hpp"\n',
     "src/service/pdo/pdo.cpp": '#include "service/pdo/pdo.hpp"\n',
@@ -143,7 +144,7 @@ CLEAN = {
     "src/service/mpdo/mpdo.hpp": "",
     "src/od/flags.cpp": '#include "service/pdo/pdo.hpp"\n#include "od/list.hpp"\n',
     "src/od/list.hpp": "",
-    "src/node/services.cpp": '#include "service/nmt/nmt.hpp"\n#include "service/pdo/pdo.hpp"\n',
+    "src/node/parts.cpp": '#include "service/nmt/nmt.hpp"\n#include "service/pdo/pdo.hpp"\n',
     "drivers/can/socket.cpp": '#include "co_b.h"\n#include "socket.h"\n#include <sys/socket.h>\n',
     "drivers/can/socket.h": "",
     "drivers/nvm/file.cpp": "#include <cstdio>\n",

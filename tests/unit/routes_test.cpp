@@ -13,7 +13,7 @@ using namespace test;
 
 struct Route {
   std::uint32_t id;
-  std::uint8_t service;
+  std::uint8_t receiver;
   std::uint16_t number;
   bool operator<(const Route& other) const { return id < other.id; }
 };
@@ -22,17 +22,21 @@ struct Route {
 std::vector<Route> found(const CO_NODE& node, std::uint32_t id) {
   std::vector<Route> all;
   for (unsigned n = co::routes::find(node, id); n != co::routes::nowhere && co::routes::is_at(node, n, id); ++n) {
-    all.push_back({id, co::routes::service_of(node.Routes.Owner[n]), co::routes::number_of(node.Routes.Owner[n])});
+    all.push_back({id, co::routes::receiver_of(node.Routes.Owner[n]), co::routes::number_of(node.Routes.Owner[n])});
   }
   return all;
 }
 
-void add(CO_NODE& node, std::uint32_t id, unsigned service, std::uint16_t number) {
-  co::routes::add(node, id, static_cast<co::routes::Service>(service), number);
+std::uint16_t owner(unsigned receiver, std::uint16_t number) {
+  return static_cast<std::uint16_t>(receiver << 12 | number);
 }
 
-void remove(CO_NODE& node, unsigned service, std::uint16_t number) {
-  co::routes::remove(node, static_cast<co::routes::Service>(service), number);
+void add(CO_NODE& node, std::uint32_t id, unsigned receiver, std::uint16_t number) {
+  co::routes::add(node, id, owner(receiver, number));
+}
+
+void remove(CO_NODE& node, unsigned receiver, std::uint16_t number) {
+  co::routes::remove(node, owner(receiver, number));
 }
 
 unsigned number_of_routes(const CO_NODE& node) { return node.Routes.Start[CO_ROUTE_CLASS_N]; }
@@ -55,9 +59,9 @@ TEST_CASE("routes: 11-bit and 29-bit identifiers of the same number are differen
   add(node, 0x123, 1, 0);
   add(node, 0x80000123, 2, 5);
   REQUIRE(found(node, 0x123).size() == 1);
-  CHECK(found(node, 0x123)[0].service == 1);
+  CHECK(found(node, 0x123)[0].receiver == 1);
   REQUIRE(found(node, 0x80000123).size() == 1);
-  CHECK(found(node, 0x80000123)[0].service == 2);
+  CHECK(found(node, 0x80000123)[0].receiver == 2);
   CHECK(found(node, 0x80000123)[0].number == 5);
   CHECK(found(node, 0x122).empty());
 }
@@ -82,11 +86,11 @@ TEST_CASE("routes: sorted after any additions and removals, and all equal identi
     for (std::uint16_t step = 0; step < 40; ++step) {
       if (model.size() < CO_ROUTE_N && random() % 2 == 0) {
         const Route route{ids[random() % 9], static_cast<std::uint8_t>(random() % 3), step};
-        add(node, route.id, route.service, route.number);
+        add(node, route.id, route.receiver, route.number);
         model.push_back(route);
       } else if (!model.empty()) {
         const auto victim = model.begin() + static_cast<std::ptrdiff_t>(random() % model.size());
-        remove(node, victim->service, victim->number);
+        remove(node, victim->receiver, victim->number);
         model.erase(victim);
       }
       REQUIRE(number_of_routes(node) == model.size());

@@ -7,13 +7,9 @@
 #include "co_cfg.h"
 #include "co_if_can.h"
 #include "co_types.h"
+#include "lexican/detail/parts.h"
 
 /// \cond internal
-// Routes: NMT, error control, LSS, SDO, heartbeat and EMCY consumers, SYNC and TIME, PDOs, GFC, both frames of SRDOs.
-#define CO_ROUTE_N                                                                                           \
-  (2 + (USE_LSS ? 1 : 0) + (USE_LSS_MASTER ? 1 : 0) + CO_SSDO_N + (USE_CSDO ? CO_CSDO_N : 0) + CO_HBCONS_N + \
-   CO_EMCY_CONS_N + (USE_SYNC ? 1 : 0) + (USE_TIME ? 1 : 0) + CO_RPDO_N + (USE_PDO_RTR ? CO_TPDO_N : 0) +    \
-   (USE_GFC ? 1 : 0) + 2 * CO_SRDO_N)
 #if CO_ROUTE_N > 255
 typedef uint16_t CO_ROUTE_NUM;
 #else
@@ -35,12 +31,8 @@ typedef struct CO_ROUTES_T {  ///< routing table: the service instances that con
   uint16_t Owner[CO_ROUTE_N];   ///< service in bits 15…12, number of its instance in bits 11…0
 } CO_ROUTES;
 #else
-// Consumers of heartbeats and EMCY are numbered from 1; an RPDO may be a multiplex PDO instead.
-#define CO_ROUTE_PLACES                                                    \
-  (CO_ROUTE_N + (CO_HBCONS_N > 0 ? 1 : 0) + (CO_EMCY_CONS_N > 0 ? 1 : 0) + \
-   (USE_MPDO ? (CO_RPDO_N > 0 ? CO_RPDO_N : 1) : 0))
-typedef struct CO_ROUTES_T {         ///< identifier that each service instance consumes, with flags
-  uint32_t Id[CO_ROUTE_PLACES + 1];  ///< the last element is the identifier that is searched
+typedef struct CO_ROUTES_T {    ///< identifier that each service instance consumes, with flags
+  uint32_t Id[CO_ROUTE_N + 1];  ///< the last element is the identifier that is searched
 } CO_ROUTES;
 #endif
 

@@ -19,7 +19,7 @@ constexpr uint32_t key(uint8_t node_id) { return CO_DEV(0x1028, node_id); }
 // Adds or changes the route of a producer to the COB-ID in 1028h; removes it if that is not valid.
 void update_route(CO_NODE& node, uint8_t node_id) {
   const uint32_t cob_id = dict::read_number(node, key(node_id), sizeof cob_id, wire::cob_invalid);
-  routes::change(node, cob_id::identifier(cob_id), routes::Service::emcy_consumer, node_id);
+  routes::change(node, cob_id::identifier(cob_id), routes::owner<PartId::emcy_consumer>(node_id - 1U));
 }
 
 CO_ERR may_replace(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {
@@ -46,7 +46,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   if (frame.DLC != wire::emcy_dlc) {
     return false;
   }
-  callback::receive_emcy(node, static_cast<uint8_t>(number), wire::emcy_code(frame), wire::emcy_register(frame),
+  callback::receive_emcy(node, static_cast<uint8_t>(number + 1), wire::emcy_code(frame), wire::emcy_register(frame),
                          wire::emcy_bytes(frame));
   return true;
 }

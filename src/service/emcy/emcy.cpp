@@ -24,20 +24,11 @@ constexpr uint32_t key_cob_id = CO_DEV(0x1014, 0);
 constexpr uint8_t generic = 1U << CO_EMCY_REG_GENERAL;
 constexpr uint8_t communication = generic | (1U << CO_EMCY_REG_COM);
 
-constexpr uint16_t codes[CO_EMCY_FAULT_N] = {
-    CO_EMCY_CODE_MON_COM_OVERRUN_ERR,   CO_EMCY_CODE_MON_COM_COLLISION_ERR,
-    CO_EMCY_CODE_MON_COM_PASSIVE_ERR,   CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR,
-    CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_EMCY_CODE_MON_COM_RECOVER_ERR,
-    CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR,  CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR,
-#if USE_MPDO
-    CO_EMCY_CODE_MON_PROT_DAM_ERR,
-#endif
-    CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR, CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR,
-#if CO_SRDO_N > 0
-    CO_EMCY_CODE_SW_DATASET_ERR,        CO_EMCY_CODE_MON_PROT_ERR,
-#endif
+constexpr uint16_t codes[] = {
+#define CO_CODE(fault, code, bit, led) code,
+    CO_FAULTS(CO_CODE)
+#undef CO_CODE
 };
-static_assert(static_cast<uint8_t>(Fault::count) == CO_EMCY_FAULT_N);
 
 constexpr uint16_t code_of(Fault fault) { return codes[static_cast<uint8_t>(fault)]; }
 static_assert(code_of(Fault::overrun) == 0x8110 && code_of(Fault::life_guard) == 0x8130);
@@ -202,7 +193,7 @@ void recover(CO_NODE& node) {
   if (number_of(node, Fault::recovered) != 0) {
     number_of(node, Fault::recovered) = 0;
     emcy::raise(node, Fault::recovered, 0);
-    emcy::forget(node, Fault::passive);
+    emcy::forget(node, Fault::passive, 0);
     over = Fault::recovered;
   }
   emcy::resolve(node, over, 0);
@@ -213,6 +204,11 @@ void recover(CO_NODE& node) {
 unsigned table_length(const CO_EMCY& emcy) {
   const unsigned given = port::is_initialised(*emcy.Node) ? emcy.Node->Ext->EmcyNum : 0U;
   return given != 0 && given < CO_EMCY_N ? given : CO_EMCY_N;
+}
+
+void take_over(CO_NODE& node, const CO_NODE_SPEC& spec) {
+  node.Emcy.Node = &node;
+  node.Emcy.Root = spec.EmcyCode;
 }
 
 void init(CO_NODE& node) {
@@ -265,7 +261,7 @@ void resolve(CO_NODE& node, Fault fault, uint32_t detail) {
   }
 }
 
-void forget(CO_NODE& node, Fault fault) {
+void forget(CO_NODE& node, Fault fault, uint32_t) {
   if (number_of(node, fault) != 0) {
     --number_of(node, fault);
     update_register(node);

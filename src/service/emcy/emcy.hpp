@@ -2,9 +2,12 @@
 // EMCY producer with error register and history, and EMCY consumer. [301:7.2.7]
 #pragma once
 
-#include "base/events.hpp"
+#include "base/part.hpp"
 
 namespace co::emcy {
+
+// Takes over the errors of the application.
+void take_over(CO_NODE& node, const CO_NODE_SPEC& spec);
 
 // Clears all errors of the stack; those of the application remain.
 void init(CO_NODE& node);
@@ -15,7 +18,7 @@ void on_mode(CO_NODE& node);
 // Implement the functions of base/events.hpp.
 void raise(CO_NODE& node, event::Fault fault, uint32_t detail);
 void resolve(CO_NODE& node, event::Fault fault, uint32_t detail);
-void forget(CO_NODE& node, event::Fault fault);
+void forget(CO_NODE& node, event::Fault fault, uint32_t detail);
 void report_can(CO_NODE& node, CO_CAN_EVENT what);
 
 // Clears the application's errors and the history.
@@ -48,10 +51,27 @@ void withdraw(CO_NODE& node, uint32_t identifier);
 void init_history(CO_NODE& node);
 void clear_history(CO_NODE& node);
 
-// Processes a message of the node with this sub-index in 1028h. Returns false if it is malformed.
+// Processes a message of the node with sub-index number + 1 in 1028h. Returns false if it is malformed.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 // Adds the routes of 1028h.
 void init_consumer(CO_NODE& node);
 
+inline constexpr Part part = Part()
+                                 .take_over(take_over)
+                                 .init(init)
+                                 .mode(on_mode)
+                                 .reset_node(forget_application)
+                                 .raise(raise)
+                                 .resolve(resolve)
+                                 .forget(forget)
+                                 .can(report_can)
+                                 .deferred(event::send_emcy, send_queued);
+
 }  // namespace co::emcy
+
+namespace co::emcy_consumer {
+
+inline constexpr Part part = Part().init(emcy::init_consumer).frames(emcy::on_frame);
+
+}  // namespace co::emcy_consumer

@@ -46,7 +46,9 @@ void apply(CO_NODE& node, CO_OBJ&, uint32_t, uint32_t) {
 
 }  // namespace
 
-void init(CO_NODE& node) { routes::change(node, is_used(node) ? identifier : wire::no_frame, routes::Service::gfc, 0); }
+void init(CO_NODE& node) {
+  routes::change(node, is_used(node) ? identifier : wire::no_frame, routes::owner<PartId::gfc>(0));
+}
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, [[maybe_unused]] uint16_t number) {
   CO_ASSERT(number == 0);

@@ -2,9 +2,7 @@
 // Global fail-safe command. [EN 50325-5]
 #pragma once
 
-#include "co_core.h"
-
-#if USE_GFC
+#include "base/part.hpp"
 
 namespace co::gfc {
 
@@ -14,6 +12,6 @@ void init(CO_NODE& node);
 // Processes a GFC. Returns false if it is malformed.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
-}  // namespace co::gfc
+inline constexpr Part part = Part().init(init).frames(on_frame);
 
-#endif
+}  // namespace co::gfc

@@ -9,8 +9,10 @@
 namespace co::guarding {
 
 void init(CO_NODE& node) {
-  routes::add(node, wire::CobId::error_control + node.NodeId, routes::Service::error_control, 0);
-  reset(node);
+  routes::add(node, wire::CobId::error_control + node.NodeId, routes::owner<PartId::error_control>(0));
+  if constexpr (USE_GUARDING != 0) {
+    reset(node);
+  }
 }
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM&, uint16_t) {

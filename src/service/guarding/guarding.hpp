@@ -3,7 +3,7 @@
 // [301:7.2.8.2.2]
 #pragma once
 
-#include "co_core.h"
+#include "base/part.hpp"
 
 namespace co::guarding {
 
@@ -15,7 +15,7 @@ void init(CO_NODE& node);
 // frame: it counts as malformed unless another service processes it. number: not used.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
-#if USE_GUARDING
+// With USE_GUARDING 0 none of these exists.
 
 // Sets the toggle bit of the next response to 0, and clears the state of life guarding that the NMT master is missing.
 void reset(CO_NODE& node);
@@ -28,12 +28,13 @@ void reset(CO_NODE& node);
 // CO_INVALID).
 void on_mode(CO_NODE& node);
 
-#else
-
-inline void reset(CO_NODE&) {}
-[[nodiscard]] inline bool on_remote(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
-inline void on_mode(CO_NODE&) {}
-
-#endif
-
 }  // namespace co::guarding
+
+namespace co::error_control {
+
+constexpr Part part_without_guarding = Part().init(guarding::init).frames(guarding::on_frame);
+inline constexpr Part part = USE_GUARDING != 0
+                                 ? part_without_guarding.remote_frames(guarding::on_remote).mode(guarding::on_mode)
+                                 : part_without_guarding;
+
+}  // namespace co::error_control

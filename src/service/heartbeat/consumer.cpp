@@ -132,9 +132,9 @@ CO_ERR start(CO_NODE& node, CO_HB_WATCH& watch, uint16_t ms, uint8_t node_id) {
   stop(node, watch);
   watch.Period = period;
   *watch.Cons = {&node, nullptr, CO_INVALID, unheard, ms, node_id, 0};
-  const auto sub = static_cast<uint16_t>(&watch - node.HbCons + 1);
+  const auto number = static_cast<uint16_t>(&watch - node.HbCons);
   const uint32_t identifier = active ? wire::CobId::error_control + node_id : wire::no_frame;
-  routes::change(node, identifier, routes::Service::heartbeat_consumer, sub);
+  routes::change(node, identifier, routes::owner<PartId::heartbeat_consumer>(number));
   return CO_ERR_NONE;
 }
 
@@ -229,8 +229,8 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   if (frame.DLC != wire::error_control_dlc) {
     return false;
   }
-  CO_ASSERT(number >= 1 && number <= CO_HBCONS_N);
-  CO_HB_WATCH& watch = node.HbCons[number - 1];
+  CO_ASSERT(number < CO_HBCONS_N);
+  CO_HB_WATCH& watch = node.HbCons[number];
   CO_ASSERT(watch.Cons != nullptr && watch.Period != 0);
   const uint8_t state = wire::state_of(frame);
   watch.Seen = tmr::now(node);

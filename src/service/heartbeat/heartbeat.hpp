@@ -2,7 +2,7 @@
 // Heartbeat producer and consumer. [301:7.2.8.3.2.2]
 #pragma once
 
-#include "co_core.h"
+#include "base/part.hpp"
 
 namespace co::heartbeat {
 
@@ -14,8 +14,16 @@ void on_mode(CO_NODE& node);
 // configured by the Init functions of the entries of 1016h. [301:7.5.2.19]
 void on_mode_consumer(CO_NODE& node);
 
-// Consumer: processes a heartbeat of the node that 1016h monitors at the sub-index number. Returns false if the frame
+// Consumer: processes a heartbeat of the node that 1016h monitors at sub-index number + 1. Returns false if the frame
 // is malformed.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
+inline constexpr Part part = Part().mode(on_mode);
+
 }  // namespace co::heartbeat
+
+namespace co::heartbeat_consumer {
+
+inline constexpr Part part = Part().frames(heartbeat::on_frame).mode(heartbeat::on_mode_consumer);
+
+}  // namespace co::heartbeat_consumer

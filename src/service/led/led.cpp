@@ -121,12 +121,18 @@ void stop(CO_NODE& node) {
   }
 }
 
+// Condition that each fault sets, or 0.
+constexpr uint8_t conditions[] = {
+#define CO_CONDITION(fault, code, bit, led) led,
+    CO_FAULTS(CO_CONDITION)
+#undef CO_CONDITION
+};
+
 uint16_t* counter_of(CO_LED& led, event::Fault fault) {
-  switch (fault) {
-    case event::Fault::heartbeat:
-    case event::Fault::life_guard: return &led.Control;
-    case event::Fault::sync_length: return &led.Sync;
-    case event::Fault::pdo_timeout: return &led.Pdo;
+  switch (conditions[static_cast<uint8_t>(fault)]) {
+    case CO_LED_CONTROL: return &led.Control;
+    case CO_LED_SYNC: return &led.Sync;
+    case CO_LED_PDO: return &led.Pdo;
     default: return nullptr;
   }
 }
@@ -161,7 +167,7 @@ void report_can(CO_NODE& node, CO_CAN_EVENT what) {
   update(node);
 }
 
-void raise(CO_NODE& node, event::Fault fault) {
+void raise(CO_NODE& node, event::Fault fault, uint32_t) {
   uint16_t* const counter = counter_of(node.Led, fault);
   if (counter != nullptr) {
     ++*counter;
@@ -169,7 +175,7 @@ void raise(CO_NODE& node, event::Fault fault) {
   }
 }
 
-void resolve(CO_NODE& node, event::Fault fault) {
+void resolve(CO_NODE& node, event::Fault fault, uint32_t) {
   uint16_t* const counter = counter_of(node.Led, fault);
   if (counter != nullptr && *counter != 0) {
     --*counter;

@@ -2,9 +2,7 @@
 // Status LEDs. [CiA 303-3]
 #pragma once
 
-#include "base/events.hpp"
-
-#if USE_LED
+#include "base/part.hpp"
 
 namespace co::led {
 
@@ -19,9 +17,10 @@ void update(CO_NODE& node);
 void report_can(CO_NODE& node, CO_CAN_EVENT what);
 
 // Raise and resolve a fault. Faults are counted.
-void raise(CO_NODE& node, event::Fault fault);
-void resolve(CO_NODE& node, event::Fault fault);
+void raise(CO_NODE& node, event::Fault fault, uint32_t detail);
+void resolve(CO_NODE& node, event::Fault fault, uint32_t detail);
+
+inline constexpr Part part =
+    Part().init(init).mode(on_mode).raise(raise).resolve(resolve).forget(resolve).can(report_can).lss_changed(update);
 
 }  // namespace co::led
-
-#endif

@@ -2,7 +2,7 @@
 // LSS slave. [305]
 #pragma once
 
-#include "co_core.h"
+#include "base/part.hpp"
 
 namespace co::lss {
 
@@ -17,8 +17,25 @@ void take_node_id(CO_NODE& node);
 // Returns whether the started node has to wait for a node-ID.
 [[nodiscard]] bool awaits_node_id(CO_NODE& node);
 
+// Returns whether the node waits for a node-ID.
+[[nodiscard]] bool is_waiting(const CO_NODE& node);
+
+// Sets the node-ID that the application has chosen.
+void change_node_id(CO_NODE& node, uint8_t id);
+
 void init(CO_NODE& node);
 void on_mode(CO_NODE& node);
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+
+inline constexpr Part part = Part()
+                                 .begin(begin)
+                                 .init(init)
+                                 .frames(on_frame)
+                                 .mode(on_mode)
+                                 .reset_node(load)
+                                 .reset(take_node_id)
+                                 .node_id(change_node_id)
+                                 .awaits_node_id(awaits_node_id)
+                                 .is_waiting(is_waiting);
 
 }  // namespace co::lss

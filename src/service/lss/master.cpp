@@ -128,7 +128,7 @@ void prepare(CO_LSSM& master, CO_LSSM_CALLBACK callback, Lss answer) {
   master.Answer = static_cast<uint8_t>(answer);
   if (master.Routed == 0) {
     master.Routed = 1;
-    routes::add(*master.Node, wire::lss_answer, routes::Service::lss_master, 0);
+    routes::add(*master.Node, wire::lss_answer, routes::owner<PartId::lss_master>(0));
     routes::publish(*master.Node);
   }
 }

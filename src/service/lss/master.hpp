@@ -2,7 +2,7 @@
 // LSS master. [305]
 #pragma once
 
-#include "co_core.h"
+#include "base/part.hpp"
 
 namespace co::lss_master {
 
@@ -13,5 +13,7 @@ void on_mode(CO_NODE& node);
 
 // Processes a response of a slave. Returns false if it is malformed.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+
+inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode);
 
 }  // namespace co::lss_master

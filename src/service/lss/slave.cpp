@@ -362,6 +362,13 @@ void load(CO_NODE& node) {
 
 void take_node_id(CO_NODE& node) { node.NodeId = node.Lss.CfgNodeId; }
 
+void change_node_id(CO_NODE& node, uint8_t id) {
+  node.Lss.OwnNodeId = id;
+  node.Lss.CfgNodeId = id;
+}
+
+bool is_waiting(const CO_NODE& node) { return node.Lss.Started != 0; }
+
 bool awaits_node_id(CO_NODE& node) {
   node.Lss.Started = is_unconfigured(node) ? 1 : 0;
   event::change_lss(node);
@@ -375,7 +382,7 @@ void init(CO_NODE& node) {
   lss.Identified = 0;
   lss.Scanned = 0;
   if (has_address(node)) {
-    routes::add(node, wire::lss_request, routes::Service::lss, 0);
+    routes::add(node, wire::lss_request, routes::owner<PartId::lss>(0));
   }
 }
 

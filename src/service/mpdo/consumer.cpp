@@ -111,14 +111,9 @@ bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
 
 }  // namespace
 
-bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
-  CO_ASSERT(number < CO_RPDO_N && is_mpdo(node.RPdo[number].Map));
-  return pdo::is_switching(node) || process_frame(node, node.RPdo[number], frame);
-}
-
-void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier) {
-  const uint32_t received = is_mpdo(pdo.Map) ? identifier : wire::no_frame;
-  routes::change(*pdo.Node, received, routes::Service::mpdo, static_cast<uint16_t>(number));
+bool receive(CO_PDO& pdo, const CO_IF_FRM& frame) {
+  CO_NODE& node = *pdo.Node;
+  return pdo::is_switching(node) || process_frame(node, pdo, frame);
 }
 
 void end_rpdo(CO_PDO& pdo) { report_unknown(pdo, false); }

@@ -2,15 +2,12 @@
 // Multiplex PDOs: each frame contains the multiplexer of its object. [301:7.2.3]
 #pragma once
 
-#include "co_core.h"
+#include "base/part.hpp"
 
 namespace co::mpdo {
 
 // Clears CO_MPDO.Producer. To be called before the PDOs are configured from the dictionary.
 void init(CO_NODE& node);
-
-// Processes a frame for the RPDO with this number, a multiplex PDO. Returns false if the frame is malformed.
-[[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 // Sends pending objects of the scanner list when the controller can accept frames. Always returns false: one call sends
 // as many as possible, so that another call would send nothing.
@@ -18,5 +15,7 @@ void init(CO_NODE& node);
 
 // Implements COTPdoSendTo() (co_pdo.h).
 [[nodiscard]] CO_ERR send_to(CO_NODE& node, uint16_t number, uint8_t node_id, uint32_t key, uint32_t value);
+
+inline constexpr Part part = Part().init(init).free(on_free);
 
 }  // namespace co::mpdo

@@ -7,7 +7,6 @@
 namespace co::mpdo {
 
 CO_ERR send_to(CO_NODE&, uint16_t, uint8_t, uint32_t, uint32_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
-bool on_free(CO_NODE&, uint16_t) { return false; }
 
 }  // namespace co::mpdo
 

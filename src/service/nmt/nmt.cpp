@@ -70,7 +70,7 @@ uint8_t allowed_in(CO_MODE mode) {
   return permissions[mode];
 }
 
-void init(CO_NODE& node) { routes::add(node, static_cast<uint32_t>(wire::CobId::nmt), routes::Service::nmt, 0); }
+void init(CO_NODE& node) { routes::add(node, static_cast<uint32_t>(wire::CobId::nmt), routes::owner<PartId::nmt>(0)); }
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   if (frame.DLC != wire::nmt_dlc) {

@@ -2,7 +2,7 @@
 // NMT slave. [301:7.2.8, 7.3.2]
 #pragma once
 
-#include "co_core.h"
+#include "base/part.hpp"
 
 namespace co::nmt {
 
@@ -28,5 +28,7 @@ void lose_communication(CO_NODE& node);
 
 // Sends the boot-up message and requests Pre-operational, in CO_INIT.
 void boot(CO_NODE& node);
+
+inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).bus_off(lose_communication);
 
 }  // namespace co::nmt

@@ -153,6 +153,22 @@ void configure_changed(CO_NODE& node) { for_each(node, configure_if_changed); }
 
 void init(CO_NODE& node) { for_each(node, init_one); }
 
+void take_over(CO_NODE& node, const CO_NODE_SPEC&) {
+  const auto own = [&](CO_PDO& pdo) {
+    pdo.Node = &node;
+    tmr::assign_to_real_time(pdo.Tmr);
+  };
+  for (CO_PDO& pdo : rpdos(node)) {
+    own(pdo);
+  }
+  for (CO_PDO& pdo : tpdos(node)) {
+    own(pdo);
+  }
+}
+
+void begin_window(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
+void end_window(CO_NODE& node) { node.WindowOver = 1; }
+
 void remap(CO_NODE& node) { for_each(node, remap_one); }
 
 }  // namespace co::pdo

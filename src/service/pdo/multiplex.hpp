@@ -33,9 +33,8 @@ inline void clear_mode(CO_PDO_MAP& map) { map.Mode = 0; }
 // Like pdo::resolve(), for a number of mapped objects above CO_PDO_MAP_N.
 [[nodiscard]] CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map);
 
-// Adds a route for the frames of an RPDO if it is a multiplex PDO; otherwise removes its route. identifier:
-// wire::no_frame if the PDO does not exist.
-void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier);
+// Processes a frame for an RPDO that is a multiplex PDO. Returns false if it is malformed.
+[[nodiscard]] bool receive(CO_PDO& pdo, const CO_IF_FRM& frame);
 // Resolves the faults of an RPDO that stops.
 void end_rpdo(CO_PDO& pdo);
 
@@ -67,7 +66,7 @@ void clear_marks(CO_PDO& pdo);
 inline void clear_mode(CO_PDO_MAP&) {}
 [[nodiscard]] inline bool is_selected(CO_NODE&, unsigned) { return false; }
 [[nodiscard]] inline CO_ERR resolve(CO_NODE&, unsigned, unsigned, CO_PDO_MAP&) { return CO_ERR_OBJ_MAP_LEN; }
-inline void begin_rpdo(CO_PDO&, unsigned, uint32_t) {}
+[[nodiscard]] inline bool receive(CO_PDO&, const CO_IF_FRM&) { return false; }
 inline void end_rpdo(CO_PDO&) {}
 inline void begin_tpdo(CO_PDO&, unsigned) {}
 [[nodiscard]] inline CO_ERR send_pending(CO_PDO&) { return CO_ERR_NONE; }

@@ -10,7 +10,6 @@ namespace co::pdo {
 void end_rpdo(CO_NODE&, CO_PDO&) {}
 void begin_rpdo(CO_PDO&, uint32_t, uint32_t) {}
 void change_deadline(CO_NODE&, unsigned, uint32_t) {}
-void apply(CO_NODE&) {}
 bool was_received(CO_NODE&, uint16_t) { return false; }
 bool was_received(CO_NODE&, const CO_OBJ&) { return false; }
 

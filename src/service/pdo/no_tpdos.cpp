@@ -10,12 +10,6 @@ namespace co::pdo {
 void end_tpdo(CO_NODE&, CO_PDO&) {}
 void begin_tpdo(CO_PDO&, uint32_t, Remote) {}
 void change_event_time(CO_NODE&, unsigned, uint32_t) {}
-void sample(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
-void end_window(CO_NODE& node) { node.WindowOver = 1; }
-void flush(CO_NODE&) {}
-CO_ERR change_object(CO_NODE&, const CO_OBJ&) { return CO_ERR_TPDO_OBJ_TRIGGER; }
-event::Outlet find_outlet(CO_NODE&, const CO_OBJ&) { return event::Outlet::none; }
-CO_ERR send_marked(CO_NODE&) { return CO_ERR_NONE; }
 CO_ERR request(CO_NODE&, uint16_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
 CO_ERR request_object(CO_NODE&, const CO_OBJ&) { return CO_ERR_TPDO_OBJ_TRIGGER; }
 bool was_sent(CO_NODE&, uint16_t) { return false; }

@@ -2,10 +2,12 @@
 // Process data objects. [301:7.2.2]
 #pragma once
 
-#include "base/events.hpp"
-#include "co_core.h"
+#include "base/part.hpp"
 
 namespace co::pdo {
+
+// Assigns the PDOs to the node, and their timers to the real-time thread.
+void take_over(CO_NODE& node, const CO_NODE_SPEC& spec);
 
 // Configures all PDOs from the dictionary. A PDO with an invalid mapping does not exist.
 void init(CO_NODE& node);
@@ -26,12 +28,13 @@ void on_mode_tpdos(CO_NODE& node);
 // Process a SYNC: sample() samples and sends the synchronous TPDOs, then apply() writes the data of the synchronous
 // RPDOs to their objects. counter: 0 if the SYNC has none.
 void sample(CO_NODE& node, uint8_t counter);
-void apply(CO_NODE& node);
+void apply(CO_NODE& node, uint8_t counter);
 
-// Ends the synchronous window: withdraws synchronous TPDOs, and ignores synchronous RPDOs until the next SYNC.
+// Begin and end the synchronous window; outside of it synchronous RPDOs are ignored.
+void begin_window(CO_NODE& node, uint8_t counter);
 void end_window(CO_NODE& node);
 
-// Withdraws synchronous TPDOs when the controller is not on the bus.
+// Withdraws synchronous TPDOs: at the end of the synchronous window, and when the controller is not on the bus.
 void flush(CO_NODE& node);
 
 // Marks the TPDOs that map the object. Returns the error of a TPDO that cannot be sent; CO_ERR_TPDO_OBJ_TRIGGER: no
@@ -54,4 +57,33 @@ void remap(CO_NODE& node);
 [[nodiscard]] bool was_sent(CO_NODE& node, uint16_t number);
 [[nodiscard]] bool was_sent(CO_NODE& node, const CO_OBJ& obj);
 
+inline constexpr Part part = Part()
+                                 .take_over(take_over)
+                                 .init(init)
+                                 .configure(configure_changed)
+                                 .remap(remap)
+                                 .sync(begin_window)
+                                 .window(end_window);
+
 }  // namespace co::pdo
+
+// TPDOs come before RPDOs: at a SYNC they are sampled before the data of RPDOs is written. [301:7.2.2.3]
+namespace co::tpdo {
+
+inline constexpr Part part = Part()
+                                 .remote_frames(pdo::on_remote)
+                                 .mode(pdo::on_mode_tpdos)
+                                 .sync(pdo::sample)
+                                 .window(pdo::flush)
+                                 .bus_off(pdo::flush)
+                                 .object_changed(pdo::change_object)
+                                 .outlet(pdo::find_outlet)
+                                 .deferred(event::send_tpdos, [](CO_NODE& node) { (void)pdo::send_marked(node); });
+
+}  // namespace co::tpdo
+
+namespace co::rpdo {
+
+inline constexpr Part part = Part().frames(pdo::on_frame).mode(pdo::on_mode_rpdos).sync(pdo::apply);
+
+}  // namespace co::rpdo

@@ -138,9 +138,7 @@ void begin_rpdo(CO_PDO& pdo, uint32_t identifier, uint32_t event) {
   if (USE_SYNC != 0) {
     bits::remove(pdo.Node->RPdoFresh, pdo.Number);
   }
-  const uint32_t received = mpdo::is_mpdo(pdo.Map) ? wire::no_frame : identifier;
-  routes::change(*pdo.Node, received, routes::Service::rpdo, pdo.Number);
-  mpdo::begin_rpdo(pdo, pdo.Number, identifier);
+  routes::change(*pdo.Node, identifier, routes::owner<PartId::rpdo>(pdo.Number));
 }
 
 void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks) {
@@ -169,12 +167,13 @@ void on_mode_rpdos(CO_NODE& node) {
 }
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
-  CO_ASSERT(number < CO_RPDO_N && exists(node.RPdo[number].Map) && !mpdo::is_mpdo(node.RPdo[number].Map));
-  return process_frame(node, node.RPdo[number], frame);
+  CO_ASSERT(number < CO_RPDO_N && (exists(node.RPdo[number].Map) || mpdo::is_mpdo(node.RPdo[number].Map)));
+  CO_RPDO& pdo = node.RPdo[number];
+  return mpdo::is_mpdo(pdo.Map) ? mpdo::receive(pdo, frame) : process_frame(node, pdo, frame);
 }
 
 // Writes all synchronous RPDOs of one SYNC with OdLock held, then calls their callbacks.
-void apply(CO_NODE& node) {
+void apply(CO_NODE& node, uint8_t) {
   if (node.HasFresh == 0) {
     return;
   }

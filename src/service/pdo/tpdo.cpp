@@ -286,7 +286,7 @@ void begin_tpdo(CO_PDO& pdo, uint32_t identifier, Remote requests) {
                                                 : bits::remove(node.TPdoSync, pdo.Number);
   }
   if (USE_PDO_RTR != 0) {
-    routes::change(node, asked ? identifier : wire::no_frame, routes::Service::tpdo, pdo.Number);
+    routes::change(node, asked ? identifier : wire::no_frame, routes::owner<PartId::tpdo>(pdo.Number));
   }
   if (is_operational(node)) {
     begin(pdo);
@@ -335,15 +335,9 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
 }
 
 void sample(CO_NODE& node, uint8_t counter) {
-  node.WindowOver = 0;
   if (is_operational(node)) {
     bits::for_each(node.TPdoSync, [&](unsigned n) { process_sync(node.TPdo[n], counter); });
   }
-}
-
-void end_window(CO_NODE& node) {
-  node.WindowOver = 1;
-  withdraw_synchronous(node);
 }
 
 void flush(CO_NODE& node) {

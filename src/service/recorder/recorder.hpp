@@ -2,9 +2,7 @@
 // Recorder: records the values of objects of the dictionary.
 #pragma once
 
-#include "co_core.h"
-
-#if USE_RECORDER
+#include "base/part.hpp"
 
 namespace co::recorder {
 
@@ -44,6 +42,6 @@ void on_mode(CO_NODE& node);
 // Ends uploads of plots whose entry CODictInit() has moved: the SDO server does not call the End function for them.
 void on_remap(CO_NODE& node);
 
-}  // namespace co::recorder
+inline constexpr Part part = Part().mode(on_mode).remap(on_remap);
 
-#endif
+}  // namespace co::recorder

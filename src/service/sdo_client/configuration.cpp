@@ -63,7 +63,7 @@ void apply_configuration(CO_CSDO& client, const Configuration& found) {
   client.RxId = found.rx_id;
   client.NodeId = found.node_id;
   client.State = found.state;
-  routes::change(node, found.rx_id, routes::Service::sdo_client, number_of(client));
+  routes::change(node, found.rx_id, routes::owner<PartId::sdo_client>(number_of(client)));
 }
 
 // Configures a client if its parameter has changed; a transfer in progress is aborted. Returns whether routes have

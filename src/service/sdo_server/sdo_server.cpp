@@ -146,7 +146,7 @@ void configure_channel(CO_NODE& node, uint16_t number) {
     channel.WasTxId = channel.TxId;
     channel.TxId = tx_id;
   }
-  routes::change(node, rx_id, routes::Service::sdo_server, number);
+  routes::change(node, rx_id, routes::owner<PartId::sdo_server>(number));
 }
 
 }  // namespace

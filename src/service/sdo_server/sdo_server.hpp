@@ -2,7 +2,7 @@
 // SDO server: expedited, segmented and block transfer. [301:7.2.4]
 #pragma once
 
-#include "co_core.h"
+#include "base/part.hpp"
 
 namespace co::sdo_server {
 
@@ -20,5 +20,7 @@ void on_mode(CO_NODE& node);
 
 // Reads the COB-IDs from the dictionary again; a channel whose identifiers have changed drops its transfer.
 void configure(CO_NODE& node);
+
+inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).free(on_free).configure(configure);
 
 }  // namespace co::sdo_server

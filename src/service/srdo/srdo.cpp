@@ -271,7 +271,7 @@ bool change_routes(CO_SRDO& srdo, bool receives, const uint32_t (&before)[2]) {
   const bool same = receives == has(srdo, routed) && (!receives || before[0] == srdo.Identifier[0]);
   for (unsigned frame = 0; frame < 2 && !same; ++frame) {
     const auto number = static_cast<uint16_t>(2 * number_of(srdo) + frame);
-    routes::change(*srdo.Node, receives ? srdo.Identifier[frame] : wire::no_frame, routes::Service::srdo, number);
+    routes::change(*srdo.Node, receives ? srdo.Identifier[frame] : wire::no_frame, routes::owner<PartId::srdo>(number));
   }
   receives ? set(srdo, routed) : clear(srdo, routed);
   return !same;

@@ -2,9 +2,7 @@
 // Safety-relevant data objects. [EN 50325-5]
 #pragma once
 
-#include "co_core.h"
-
-#if CO_SRDO_N > 0
+#include "base/part.hpp"
 
 namespace co::srdo {
 
@@ -22,6 +20,6 @@ void on_mode(CO_NODE& node);
 void halt(CO_NODE& node);
 void report_halted(CO_NODE& node);
 
-}  // namespace co::srdo
+inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).halt(halt).configure(report_halted);
 
-#endif
+}  // namespace co::srdo

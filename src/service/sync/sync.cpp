@@ -97,7 +97,7 @@ void configure(CO_NODE& node) {
   const uint32_t cob_id = read(node, id_index) & ~wire::cob_invalid;
   sync.Identifier = cob_id::identifier(cob_id);
   sync.Produces = sync.Identifier != wire::no_frame && (cob_id & producer) != 0 ? 1 : 0;
-  routes::change(node, sync.Identifier, routes::Service::sync, 0);
+  routes::change(node, sync.Identifier, routes::owner<PartId::sync>(0));
   run_producer(node);
 }
 
@@ -162,6 +162,11 @@ void init(CO_NODE& node) {
   if (sync.Produces != 0 && is_too_short(read(node, cycle_index))) {
     error::report(node, CO_ERR_OBJ_RANGE_LOW, CO_DEV(cycle_index, 0));
   }
+}
+
+void take_over(CO_NODE& node, const CO_NODE_SPEC&) {
+  tmr::assign_to_real_time(node.Sync.Tmr);
+  tmr::assign_to_real_time(node.Sync.WindowTmr);
 }
 
 void on_mode(CO_NODE& node) {

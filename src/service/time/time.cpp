@@ -57,7 +57,7 @@ void init(CO_NODE& node) {
   const bool consumes = (cob_id & CO_TIME_COBID_CONSUME) != 0;
   flush(node);
   node.Time.Identifier = (cob_id & CO_TIME_COBID_PRODUCE) != 0 ? identifier : wire::no_frame;
-  routes::change(node, consumes ? identifier : wire::no_frame, routes::Service::time, 0);
+  routes::change(node, consumes ? identifier : wire::no_frame, routes::owner<PartId::time>(0));
   run_producer(node);
 }
 

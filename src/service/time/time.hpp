@@ -2,9 +2,7 @@
 // TIME consumer and producer, and a running clock. [301:7.2.6]
 #pragma once
 
-#include "co_core.h"
-
-#if USE_TIME
+#include "base/part.hpp"
 
 namespace co::time {
 
@@ -29,6 +27,6 @@ void flush(CO_NODE& node);
 
 void stop_clock(CO_NODE& node);
 
-}  // namespace co::time
+inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).bus_off(flush);
 
-#endif
+}  // namespace co::time

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file lexican/detail/faults.h
+/// The list of the communication faults that the stack detects. A new fault is a row here, and the calls of
+/// event::raise() and event::resolve() in its part.
+#ifndef LEXICAN_DETAIL_FAULTS_H_
+#define LEXICAN_DETAIL_FAULTS_H_
+
+#include "co_cfg.h"
+
+/// \cond internal
+// X(fault, code, bit, led). code: EMCY error code [301:7.2.7]. bit: CO_EMCY_BIT_.... led: CO_LED_... that it sets, or
+// 0.
+#define CO_FAULTS(X)                                                                         \
+  X(overrun, CO_EMCY_CODE_MON_COM_OVERRUN_ERR, CO_EMCY_BIT_OVERRUN, 0)                       \
+  X(collision, CO_EMCY_CODE_MON_COM_COLLISION_ERR, CO_EMCY_BIT_COLLISION, 0)                 \
+  X(passive, CO_EMCY_CODE_MON_COM_PASSIVE_ERR, CO_EMCY_BIT_PASSIVE, 0)                       \
+  X(heartbeat, CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_EMCY_BIT_HEARTBEAT, CO_LED_CONTROL)    \
+  X(life_guard, CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_EMCY_BIT_LIFE_GUARD, CO_LED_CONTROL)  \
+  X(recovered, CO_EMCY_CODE_MON_COM_RECOVER_ERR, CO_EMCY_BIT_BUS_OFF, 0)                     \
+  X(pdo_short, CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR, CO_EMCY_BIT_PDO_SHORT, 0)                  \
+  X(pdo_long, CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR, CO_EMCY_BIT_PDO_LONG, 0)                    \
+  CO_FAULTS_OF_MPDO(X)                                                                       \
+  X(sync_length, CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR, CO_EMCY_BIT_SYNC_LENGTH, CO_LED_SYNC)   \
+  X(pdo_timeout, CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR, CO_EMCY_BIT_PDO_TIMEOUT, CO_LED_PDO) \
+  CO_FAULTS_OF_SRDO(X)
+#if USE_MPDO
+#define CO_FAULTS_OF_MPDO(X) X(pdo_unknown, CO_EMCY_CODE_MON_PROT_DAM_ERR, CO_EMCY_BIT_PDO_UNKNOWN, 0)
+#else
+#define CO_FAULTS_OF_MPDO(X)
+#endif
+#if CO_SRDO_N > 0
+#define CO_FAULTS_OF_SRDO(X)                                                            \
+  X(srdo_configuration, CO_EMCY_CODE_SW_DATASET_ERR, CO_EMCY_BIT_SRDO_CONFIGURATION, 0) \
+  X(srdo, CO_EMCY_CODE_MON_PROT_ERR, CO_EMCY_BIT_SRDO, 0)
+#else
+#define CO_FAULTS_OF_SRDO(X)
+#endif
+
+#define CO_COUNT_FAULT(fault, code, bit, led) +1
+#define CO_EMCY_FAULT_N (0 CO_FAULTS(CO_COUNT_FAULT))
+/// \endcond
+
+#endif

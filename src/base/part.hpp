@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the rest of the stack knows of a part: the functions that it has for the events of a node. Parts do not call
+// each other.
+#pragma once
+
+#include "base/events.hpp"
+
+namespace co {
+
+// The functions of a part. Each is named by a function of this class, for example Part().init(f).frames(g); a part has
+// no function for the events that it does not name.
+class Part {
+ public:
+  using Function = void (*)(CO_NODE& node);
+  // Processes a frame of one of its routes. Returns false if the frame is malformed.
+  using Handler = bool (*)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+  using FaultFunction = void (*)(CO_NODE& node, event::Fault fault, uint32_t detail);
+
+  static bool refuse(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
+
+// A column of the table: the event, the type of the function, and the function of parts that do not name it.
+#define CO_COLUMN(event, type, without)       \
+  type of_##event = without;                  \
+  constexpr Part event(type function) const { \
+    Part part = *this;                        \
+    part.of_##event = function;               \
+    return part;                              \
+  }
+
+  // CONodeInit(), with the node cleared; then with its drivers, before the dictionary is known.
+  using TakeOver = void (*)(CO_NODE& node, const CO_NODE_SPEC& spec);
+  CO_COLUMN(take_over, TakeOver, nullptr)
+  CO_COLUMN(begin, Function, nullptr)
+
+  // Each entry of Initialisation: stored values are loaded, then objects and parts are initialised.
+  using Load = void (*)(CO_NODE& node, CO_NMT_RESET type);
+  CO_COLUMN(load, Load, nullptr)
+  CO_COLUMN(init, Function, nullptr)
+
+  CO_COLUMN(frames, Handler, refuse)
+  CO_COLUMN(remote_frames, Handler, refuse)
+
+  // transmit::offer() may succeed now for a sender. Returns whether frames were sent.
+  using Sender = bool (*)(CO_NODE& node, uint16_t number);
+  CO_COLUMN(free, Sender, nullptr)
+
+  // The NMT state has changed. A reset begins; "reset node" begins.
+  CO_COLUMN(mode, Function, nullptr)
+  CO_COLUMN(reset, Function, nullptr)
+  CO_COLUMN(reset_node, Function, nullptr)
+
+  // Returns whether a node that is being started has to wait for a node-ID, and whether it is waiting.
+  using Start = bool (*)(CO_NODE& node);
+  CO_COLUMN(awaits_node_id, Start, nullptr)
+  using Question = bool (*)(const CO_NODE& node);
+  CO_COLUMN(is_waiting, Question, nullptr)
+
+  // Sends deferred messages: called if the bit of CO_NODE.Pending is set.
+  unsigned pending = 0;
+  Function of_deferred = nullptr;
+  constexpr Part deferred(unsigned bit, Function function) const {
+    Part part = *this;
+    part.pending = bit;
+    part.of_deferred = function;
+    return part;
+  }
+
+  // Parameters have changed. The dictionary was replaced: before functions of the application run, then.
+  CO_COLUMN(configure, Function, nullptr)
+  CO_COLUMN(halt, Function, nullptr)
+  CO_COLUMN(remap, Function, nullptr)
+
+  // Events of other parts, of the controller and of the application (base/events.hpp).
+  CO_COLUMN(raise, FaultFunction, nullptr)
+  CO_COLUMN(resolve, FaultFunction, nullptr)
+  CO_COLUMN(forget, FaultFunction, nullptr)
+  using Can = void (*)(CO_NODE& node, CO_CAN_EVENT what);
+  CO_COLUMN(can, Can, nullptr)
+  CO_COLUMN(bus_off, Function, nullptr)
+  using Sync = void (*)(CO_NODE& node, uint8_t counter);
+  CO_COLUMN(sync, Sync, nullptr)
+  CO_COLUMN(window, Function, nullptr)
+  using NodeId = void (*)(CO_NODE& node, uint8_t id);
+  CO_COLUMN(node_id, NodeId, nullptr)
+  CO_COLUMN(lss_changed, Function, nullptr)
+  using ObjectChanged = CO_ERR (*)(CO_NODE& node, const CO_OBJ& obj);
+  CO_COLUMN(object_changed, ObjectChanged, nullptr)
+  using Outlet = event::Outlet (*)(CO_NODE& node, const CO_OBJ& obj);
+  CO_COLUMN(outlet, Outlet, nullptr)
+#undef CO_COLUMN
+};
+
+}  // namespace co

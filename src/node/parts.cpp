@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/parts.hpp"
+
+#include "base/callbacks.hpp"
+#include "base/count.hpp"
+#include "base/transmit.hpp"
+#include "co_assert.h"
+#include "hal/port.hpp"
+
+namespace co {
+namespace parts {
+namespace {
+
+// The parts that receive frames, as routes number them.
+struct Receiver {
+  uint8_t allowed;
+  uint16_t routes;
+  Part::Handler on_frame;
+  Part::Handler on_remote;
+};
+struct Receivers {
+  Receiver row[routes::receivers];
+};
+constexpr Receivers receivers_of_table() {
+  Receivers receivers = {};
+  unsigned number = 0;
+  for (size_t n = 0; n < row_num; ++n) {
+    if (routes::routes_of[n] != 0) {
+      const Row& row = rows[n];
+      receivers.row[number++] = {row.allowed, routes::routes_of[n], row.part.of_frames, row.part.of_remote_frames};
+    }
+  }
+  return receivers;
+}
+constexpr Receivers receivers = receivers_of_table();
+
+// Returns the number of senders of all parts.
+constexpr uint16_t count_senders() {
+  uint16_t all = 0;
+  for (const Row& row : rows) {
+    all = static_cast<uint16_t>(all + (row.is_present ? row.senders : 0));
+  }
+  return all;
+}
+constexpr uint16_t senders = count_senders();
+static_assert(senders <= UINT8_MAX, "CO_NODE.NextSender");
+
+// Continues the sender with this number. Returns whether it has sent frames.
+template <size_t row = 0>
+bool continue_sender(CO_NODE& node, uint16_t sender) {
+  constexpr uint16_t own = rows[row].is_present ? rows[row].senders : 0;
+  if constexpr (own != 0) {
+    if (sender < own) {
+      return rows[row].part.of_free(node, sender);
+    }
+  }
+  if constexpr (row + 1 < row_num) {
+    return continue_sender<row + 1>(node, static_cast<uint16_t>(sender - own));
+  }
+  return false;
+}
+
+}  // namespace
+
+// Continues the senders in round-robin order (index: CO_NODE.NextSender), each with as many frames as the controller
+// accepts. The sender that is refused first continues first the next time.
+void on_free(CO_NODE& node) {
+  unsigned idle = 0;
+  CO_ASSERT(senders == 0 || node.NextSender < senders);
+  node.Paused = 0;
+  while (idle < senders && node.Paused == 0) {
+    const bool sent = continue_sender(node, node.NextSender);
+    if (sent || node.Paused == 0) {
+      node.NextSender = static_cast<uint8_t>(node.NextSender + 1U < senders ? node.NextSender + 1U : 0);
+    }
+    idle = sent ? 0 : idle + 1;
+  }
+}
+
+#if USE_REAL_TIME
+bool is_real_time(const CO_NODE& node, unsigned place) {
+  constexpr unsigned own = CO_SYNC_ALLOWED | CO_PDO_ALLOWED;
+  const uint32_t id = node.Routes.Id[place];
+  while (routes::is_at(node, place, id) &&
+         (receivers.row[routes::receiver_of(node.Routes.Owner[place])].allowed & own) != 0) {
+    ++place;
+  }
+  return !routes::is_at(node, place, id);
+}
+#endif
+
+#if CO_ROUTES_SORTED
+namespace {
+
+// Calls the parts in the order of the routes, which each part may change.
+[[gnu::noinline]] bool dispatch_shared(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
+  bool claimed = false;
+  bool served = false;
+  const uint32_t id = node.Routes.Id[place];
+  do {
+    const uint16_t owner = node.Routes.Owner[place];
+    const bool alone = !routes::is_at(node, place + 1, id);
+    CO_ASSERT(routes::receiver_of(owner) < routes::receivers);
+    const Receiver& receiver = receivers.row[routes::receiver_of(owner)];
+    if (event::is_allowed(node, receiver.allowed)) {
+      const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? receiver.on_remote : receiver.on_frame;
+      claimed = true;
+      served |= serve(node, frame, routes::number_of(owner));
+    }
+    place = alone ? routes::nowhere : routes::next(node, place, id, owner);
+  } while (place != routes::nowhere);
+  if (claimed && !served) {
+    count(node.Count.Malformed);
+  }
+  return claimed;
+}
+
+}  // namespace
+
+// Calls the only owner of the identifier without a loop: nearly all identifiers have one owner.
+bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
+  CO_ASSERT(place < node.Routes.Start[CO_ROUTE_CLASS_N]);
+  if (USE_FAST_PATHS == 0 || routes::is_at(node, place + 1, node.Routes.Id[place])) {
+    return dispatch_shared(node, frame, place);
+  }
+  const uint16_t owner = node.Routes.Owner[place];
+  CO_ASSERT(routes::receiver_of(owner) < routes::receivers);
+  const Receiver& receiver = receivers.row[routes::receiver_of(owner)];
+  if (!event::is_allowed(node, receiver.allowed)) {
+    return false;
+  }
+  const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? receiver.on_remote : receiver.on_frame;
+  if (!serve(node, frame, routes::number_of(owner))) {
+    count(node.Count.Malformed);
+  }
+  return true;
+}
+#else
+// Calls each part that consumes the identifier. The part of a position is found by counting routes.
+bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
+  const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
+  bool claimed = false;
+  bool served = false;
+  for (unsigned place = 0; (place = routes::find(node, id, place)) != CO_ROUTE_N; ++place) {
+    const Receiver* receiver = receivers.row;
+    unsigned number = place;
+    for (; number >= receiver->routes; ++receiver) {
+      number -= receiver->routes;
+    }
+    if (event::is_allowed(node, receiver->allowed)) {
+      const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? receiver->on_remote : receiver->on_frame;
+      claimed = true;
+      served |= serve(node, frame, static_cast<uint16_t>(number));
+    }
+  }
+  if (claimed && !served) {
+    count(node.Count.Malformed);
+  }
+  return claimed;
+}
+#endif
+
+}  // namespace parts
+
+void event::raise(CO_NODE& node, Fault fault, uint32_t detail) { parts::run<&Part::of_raise>(node, fault, detail); }
+
+void event::resolve(CO_NODE& node, Fault fault, uint32_t detail) { parts::run<&Part::of_resolve>(node, fault, detail); }
+
+void event::forget(CO_NODE& node, Fault fault) { parts::run<&Part::of_forget>(node, fault, 0U); }
+
+void event::report_can(CO_NODE& node, CO_CAN_EVENT what) {
+  if (what == CO_CAN_BUS_OFF) {
+    parts::run<&Part::of_bus_off>(node);
+  }
+  parts::run<&Part::of_can>(node, what);
+}
+
+void event::sync(CO_NODE& node, uint8_t counter) { parts::run<&Part::of_sync>(node, counter); }
+
+void event::end_sync_window(CO_NODE& node) { parts::run<&Part::of_window>(node); }
+
+void event::change_node_id(CO_NODE& node, uint8_t id) {
+  node.NodeId = id;
+  parts::run<&Part::of_node_id>(node, id);
+}
+
+void event::change_lss(CO_NODE& node) { parts::run<&Part::of_lss_changed>(node); }
+
+void event::lose_communication(CO_NODE& node) { nmt::lose_communication(node); }
+
+CO_MODE event::mode_for_switch(CO_NODE& node) { return nmt::mode_for_switch(node); }
+
+void event::change_object(CO_NODE& node, const CO_OBJ& obj) { parts::run<&Part::of_object_changed>(node, obj); }
+
+event::Outlet event::find_outlet(CO_NODE& node, const CO_OBJ& obj) {
+  return parts::ask<&Part::of_outlet>(Outlet::none, node, obj);
+}
+
+namespace {
+
+// Enters an NMT state: sets the permissions, then calls on_mode of every service.
+void enter(CO_NODE& node, CO_MODE mode) {
+  CO_ASSERT(mode < CO_MODE_NUM);
+  node.Nmt.Mode = mode;
+  node.State = static_cast<uint8_t>(mode == CO_INVALID ? node.State & ~event::running : node.State | event::running);
+  node.Nmt.Allowed = nmt::allowed_in(mode);
+  parts::run<&Part::of_mode>(node);
+  if (mode == CO_INVALID) {
+    transmit::clear(node);
+    node.Paused = 0;
+    node.Pending = 0;
+    node.TransmitOff = 0;
+    port::can_close(node);
+  }
+}
+
+// Calls CONmtModeChange() and enters the state, unless the callback has requested another one.
+void announce_and_enter(CO_NODE& node, CO_MODE next) {
+  callback::change_mode(node, next);
+  if (next == node.Nmt.Next) {
+    enter(node, next);
+  }
+}
+
+}  // namespace
+
+// Enters the requested NMT state, if it is another one. A state that CONmtModeChange() or a service requests replaces
+// the one to be entered, or follows the one just entered. Messages that were deferred before are sent before, because
+// the next state may not permit them. Resets that are requested while the node is started are dropped.
+void event::enter_requested_mode(CO_NODE& node) {
+  CO_NMT& nmt = node.Nmt;
+  const bool starts = nmt.Mode == CO_INIT;
+  while ((node.Pending & event::mode) != 0) {
+    event::send_deferred(node);
+    event::remove(node, event::mode);
+    if (nmt.Next != nmt.Mode) {
+      announce_and_enter(node, nmt.Next);
+    }
+  }
+  if (starts) {
+    event::forget_resets(node);
+  }
+}
+
+void event::request_mode(CO_NODE& node, CO_MODE requested) {
+  if (node.Nmt.Next != requested && node.Nmt.Next != CO_INVALID) {
+    node.Nmt.Next = requested;
+    node.TransmitOff = requested == CO_INVALID ? uint8_t{stopping} : node.TransmitOff;
+    defer(node, mode);
+  }
+}
+
+}  // namespace co
