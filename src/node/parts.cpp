@@ -77,19 +77,9 @@ void on_free(CO_NODE& node) {
   }
 }
 
-#if USE_REAL_TIME
-bool is_real_time(const CO_NODE& node, unsigned place) {
-  constexpr unsigned own = CO_SYNC_ALLOWED | CO_PDO_ALLOWED;
-  const uint32_t id = node.Routes.Id[place];
-  while (routes::is_at(node, place, id) &&
-         (receivers.row[routes::receiver_of(node.Routes.Owner[place])].allowed & own) != 0) {
-    ++place;
-  }
-  return !routes::is_at(node, place, id);
-}
-#endif
-
 #if CO_ROUTES_SORTED
+uint8_t permission_of(uint16_t owner) { return receivers.row[routes::receiver_of(owner)].allowed; }
+
 namespace {
 
 // Calls the parts in the order of the routes, which each part may change.
@@ -186,68 +176,14 @@ void event::change_node_id(CO_NODE& node, uint8_t id) {
 
 void event::change_lss(CO_NODE& node) { parts::run<&Part::of_lss_changed>(node); }
 
-void event::lose_communication(CO_NODE& node) { nmt::lose_communication(node); }
+void event::lose_communication(CO_NODE& node) { error_behaviour::lose_communication(node); }
 
-CO_MODE event::mode_for_switch(CO_NODE& node) { return nmt::mode_for_switch(node); }
+CO_MODE event::mode_for_switch(CO_NODE& node) { return error_behaviour::mode_for_switch(node); }
 
 void event::change_object(CO_NODE& node, const CO_OBJ& obj) { parts::run<&Part::of_object_changed>(node, obj); }
 
 event::Outlet event::find_outlet(CO_NODE& node, const CO_OBJ& obj) {
   return parts::ask<&Part::of_outlet>(Outlet::none, node, obj);
-}
-
-namespace {
-
-// Enters an NMT state: sets the permissions, then calls on_mode of every service.
-void enter(CO_NODE& node, CO_MODE mode) {
-  CO_ASSERT(mode < CO_MODE_NUM);
-  node.Nmt.Mode = mode;
-  node.State = static_cast<uint8_t>(mode == CO_INVALID ? node.State & ~event::running : node.State | event::running);
-  node.Nmt.Allowed = nmt::allowed_in(mode);
-  parts::run<&Part::of_mode>(node);
-  if (mode == CO_INVALID) {
-    transmit::clear(node);
-    node.Paused = 0;
-    node.Pending = 0;
-    node.TransmitOff = 0;
-    port::can_close(node);
-  }
-}
-
-// Calls CONmtModeChange() and enters the state, unless the callback has requested another one.
-void announce_and_enter(CO_NODE& node, CO_MODE next) {
-  callback::change_mode(node, next);
-  if (next == node.Nmt.Next) {
-    enter(node, next);
-  }
-}
-
-}  // namespace
-
-// Enters the requested NMT state, if it is another one. A state that CONmtModeChange() or a service requests replaces
-// the one to be entered, or follows the one just entered. Messages that were deferred before are sent before, because
-// the next state may not permit them. Resets that are requested while the node is started are dropped.
-void event::enter_requested_mode(CO_NODE& node) {
-  CO_NMT& nmt = node.Nmt;
-  const bool starts = nmt.Mode == CO_INIT;
-  while ((node.Pending & event::mode) != 0) {
-    event::send_deferred(node);
-    event::remove(node, event::mode);
-    if (nmt.Next != nmt.Mode) {
-      announce_and_enter(node, nmt.Next);
-    }
-  }
-  if (starts) {
-    event::forget_resets(node);
-  }
-}
-
-void event::request_mode(CO_NODE& node, CO_MODE requested) {
-  if (node.Nmt.Next != requested && node.Nmt.Next != CO_INVALID) {
-    node.Nmt.Next = requested;
-    node.TransmitOff = requested == CO_INVALID ? uint8_t{stopping} : node.TransmitOff;
-    defer(node, mode);
-  }
 }
 
 }  // namespace co

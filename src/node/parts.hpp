@@ -8,6 +8,7 @@
 
 #include "base/part.hpp"
 #include "base/routes.hpp"
+#include "node/mode.hpp"
 #include "service/emcy/emcy.hpp"
 #include "service/gfc/gfc.hpp"
 #include "service/guarding/guarding.hpp"
@@ -16,7 +17,7 @@
 #include "service/lss/lss.hpp"
 #include "service/lss/master.hpp"
 #include "service/mpdo/mpdo.hpp"
-#include "service/nmt/nmt.hpp"
+#include "service/nmt/error_behaviour.hpp"
 #include "service/pdo/pdo.hpp"
 #include "service/recorder/recorder.hpp"
 #include "service/sdo_client/sdo_client.hpp"
@@ -92,12 +93,12 @@ template <size_t row = 0>
   }
 }
 
-// Returns whether all routes of the identifier at this position belong to SYNC and PDOs.
-[[nodiscard]] bool is_real_time(const CO_NODE& node, unsigned place);
-
 // Passes a frame to the parts whose routes begin at this position. Returns false if the NMT state permits none of them.
 #if CO_ROUTES_SORTED
 [[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place);
+
+// Returns the CO_..._ALLOWED bit of the part that owns a route.
+[[nodiscard]] uint8_t permission_of(uint16_t owner);
 #else
 [[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame);
 #endif

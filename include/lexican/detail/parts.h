@@ -14,6 +14,7 @@
 // permission: CO_..._ALLOWED bit that the NMT state must have for its frames.
 #define CO_PARTS(X)                                                    \
   X(nmt, 1, 1, 0, CO_NMT_ALLOWED)                                      \
+  X(error_behaviour, 1, 0, 0, CO_NMT_ALLOWED)                          \
   X(sdo_server, CO_SSDO_N, CO_SSDO_N, CO_SSDO_N, CO_SDO_ALLOWED)       \
   X(sdo_client, USE_CSDO, CO_CSDO_N, CO_CSDO_N, CO_SDO_ALLOWED)        \
   X(error_control, 1, 1, 0, CO_NMT_ALLOWED)                            \

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1029h: reactions of the node to the loss of the network and to errors of the device. [301:7.5.2.32]
-#include "co_nmt.h"
+#include "service/nmt/error_behaviour.hpp"
 
-#include "base/events.hpp"
 #include "dictionary/parameter.hpp"
-#include "service/nmt/nmt.hpp"
 
-namespace co::nmt {
+namespace co::error_behaviour {
 namespace {
 
 constexpr uint8_t communication_error = 1;
@@ -41,7 +38,7 @@ CO_MODE mode_for_switch(CO_NODE& node) {
   return behaviour_for(node, communication_error) == CO_ERROR_BEHAVIOUR_STOP ? CO_STOP : CO_PREOP;
 }
 
-}  // namespace co::nmt
+}  // namespace co::error_behaviour
 
 using namespace co;
 
@@ -53,7 +50,7 @@ CO_ERR COErrorBehaviour(CO_NODE* node, uint8_t sub) {
   if (node == nullptr || sub == 0 || sub > rules::error_behaviour.last_sub) {
     return CO_ERR_BAD_ARG;
   }
-  const bool done = nmt::react(*node, sub);
+  const bool done = error_behaviour::react(*node, sub);
   event::run_deferred(*node);
   return done ? CO_ERR_NONE : CO_ERR_NMT_MODE;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Default callbacks: weak symbols, which definitions of the application replace. Those of services that can be switched
-// off are in their files.
+// Default callbacks: weak symbols, which definitions of the application replace; those of services that can be switched
+// off are in their files. Version.
 #include "co_core.h"
+#include "co_ver.h"
 
 extern "C" {
 
@@ -37,5 +38,15 @@ WEAK void COPdoUpdate(CO_RPDO*) {}
 WEAK void CONodeCanChange(CO_NODE*, CO_CAN_EVENT) {}
 
 WEAK void COEmcyReceived(CO_NODE*, uint8_t, uint16_t, uint8_t, const uint8_t[5]) {}
+
+uint8_t COVerMajor(void) { return CO_VER_MAJOR; }
+
+uint8_t COVerMinor(void) { return CO_VER_MINOR; }
+
+uint8_t COVerBuild(void) { return CO_VER_BUILD; }
+
+uint32_t COVersion(void) { return CO_VER_MAJOR * 10000U + CO_VER_MINOR * 100U + CO_VER_BUILD; }
+
+void CO_VerInit(void) {}
 
 }  // extern "C"

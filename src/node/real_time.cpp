@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// A second thread for SYNC and PDOs: CONodeRealTime().
+#include "base/count.hpp"
+#include "base/receive.hpp"
+#include "base/routes.hpp"
+#include "base/timer.hpp"
+#include "base/transmit.hpp"
+#include "hal/port.hpp"
+#include "node/node.hpp"
+#include "node/parts.hpp"
+#include "wire/cob_id.hpp"
+#include "wire/frame.hpp"
+
+#if USE_REAL_TIME
+
+namespace co::node {
+namespace {
+
+// Returns whether all routes of the identifier at this position belong to SYNC and PDOs.
+bool is_real_time(const CO_NODE& node, unsigned place) {
+  constexpr unsigned own = CO_SYNC_ALLOWED | CO_PDO_ALLOWED;
+  const uint32_t id = node.Routes.Id[place];
+  while (routes::is_at(node, place, id) && (parts::permission_of(node.Routes.Owner[place]) & own) != 0) {
+    ++place;
+  }
+  return !routes::is_at(node, place, id);
+}
+
+// Processes a frame in the real-time thread. A frame that the NMT state forbids now is dropped: left to
+// CONodeProcess(), it would be processed after newer frames.
+void serve_at_once(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
+  if (place == routes::nowhere || !parts::dispatch(node, frame, place)) {
+    count(node.Count.Unclaimed);
+  }
+}
+
+// Leaves a frame to CONodeProcess(); a frame for which the ring has no space is lost and reported as overrun.
+void leave(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (!CORingPut(node.Ext->Mainline, &frame)) {
+    event::defer(node, event::overrun);
+  }
+}
+
+// Returns whether a frame is left to CONodeProcess(). place: position of its first route
+bool is_for_mainline(const CO_NODE& node, unsigned place) {
+  return place == routes::nowhere ? node.Ext->Foreign : !is_real_time(node, place);
+}
+
+// Processes a received frame, or leaves it to CONodeProcess().
+void share_out(CO_NODE& node, CO_IF_FRM frame) {
+  if (!check_length(node, frame)) {
+    return;
+  }
+  if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
+    leave(node, frame);
+    return;
+  }
+  frame.Identifier = wire::normalised(frame.Identifier);
+  const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
+  is_for_mainline(node, place) ? leave(node, frame) : serve_at_once(node, frame, place);
+}
+
+}  // namespace
+
+// Runs all deferred work, for CONodeProcess(): also the work that is left to the mainline.
+void run_deferred_of_mainline(CO_NODE& node) {
+  if ((node.Pending & event::overrun) != 0) {
+    const event::Serving serving(node);
+    event::remove(node, event::overrun);
+    report(node, CO_CAN_OVERRUN);
+  }
+  run_pending(node, ~unsigned{event::overrun});
+}
+
+// Returns whether the real-time thread has left work to CONodeProcess().
+bool is_awaited(const CO_NODE& node) {
+  return port::has_mainline(node) && (node.Pending != 0 || CORingCount(node.Ext->Mainline) != 0);
+}
+
+bool receive_from_mainline(CO_NODE& node, CO_IF_FRM& frame) { return CORingGet(node.Ext->Mainline, &frame); }
+
+}  // namespace co::node
+
+using namespace co;
+
+// Keeps the node working throughout, so that deferred work is left to the mainline, except messages. A requested NMT
+// state ends the loop, and is entered at the end.
+extern "C" void CONodeRealTime(CO_NODE* node) {
+  ASSERT_PTR_FATAL(node);
+  const port::NodeLock turn(*node);
+  if (!port::has_mainline(*node)) {
+    return;
+  }
+  (void)COTmrService(&node->Tmr);
+  if ((node->State & event::running) == 0) {
+    node::drop_received(*node);
+    return;
+  }
+  const unsigned ends = node->State == event::running ? unsigned{event::mode} : 0U;  // else the mainline enters it
+  {
+    const event::Serving serving(*node);
+    transmit::flush(*node);
+    CO_IF_FRM frame = wire::empty_frame();
+    while ((node->Pending & ends) == 0 && receive::read(*node, frame) > 0) {
+      count(node->Count.Received);
+      node::share_out(*node, frame);
+      event::send_deferred(*node);
+    }
+    tmr::run_real_time(node->Tmr);
+  }
+  node::run_pending(*node, event::mode);
+}
+
+#endif
