@@ -333,6 +333,7 @@ bool go_back(CO_RECORDER& recorder, const Cursor& to) {
     return false;
   }
   plot.Cursor = to;
+  plot.Saved[1] = to;  // save() requires that no saved cursor is behind the current one
   return true;
 }
 
