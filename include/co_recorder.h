@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_recorder.h
 /// Recorder (USE_RECORDER): records the values of an object of the dictionary over time, like an oscilloscope, in
-/// memory of the application, and returns them as CSV, as numbers or as a picture. It is specific to this stack; its
-/// two records follow the trace objects of CANopenNode. A node can have any number of recorders.
+/// memory of the application, and returns them as CSV or as numbers; the host program lexican-plot draws the CSV. It is
+/// specific to this stack; its two records follow the trace objects of CANopenNode. A node can have any number of
+/// recorders.
 ///
 /// Configuration record, CO_TREC_CONFIG, usually 2301h…:
 /// | sub | type | content |
 /// |---|---|---|
 /// | 1 | UNSIGNED32 | points in use, up to CO_RECORDER.Num; 0: no points are recorded |
 /// | 2 | UNSIGNED8 | axis number, for the tool that draws; not used by the stack |
-/// | 3 | VISIBLE_STRING | name (CO_TVISIBLE_STRING, Data: &Recorder.Name) |
-/// | 4 | UNSIGNED32 | colour of the curve, RRGGBBh |
+/// | 3 | VISIBLE_STRING | name, for the tool that draws (CO_TVISIBLE_STRING, Data: &Recorder.Name) |
+/// | 4 | UNSIGNED32 | colour of the curve, RRGGBBh, for the tool that draws |
 /// | 5 | UNSIGNED32 | recorded object: index, sub-index and bits (8, 16, 24, 32) as in a PDO mapping; 0: none |
-/// | 6 | UNSIGNED8 | format of the plot: CO_RECORDER_CSV, _BINARY or _SVG, plus CO_RECORDER_UNSIGNED |
+/// | 6 | UNSIGNED8 | format of the plot: CO_RECORDER_CSV or _BINARY, plus CO_RECORDER_UNSIGNED |
 /// | 7 | UNSIGNED8 | trigger: CO_RECORDER_FREE, _RISING, _FALLING or _BOTH |
 /// | 8 | INTEGER32 | threshold of the trigger |
 /// | 9 | UNSIGNED32 | points to be kept from before the trigger: 0, or less than sub-index 1 |
@@ -58,9 +59,6 @@
 /// client at a time can read the plot.
 /// - CSV: a line `time;value` for each point, ended by a line feed.
 /// - Binary: for each point the time, UNSIGNED32, and the value, INTEGER32, both little-endian.
-/// - SVG: a picture of 800 by 400 with the value as steps, the name of the recorder, and the limits of both axes. A gap
-///   in the curve shows points that were left out. The limits are searched in all points when the upload begins. Up to
-///   80 characters of the name are shown; it should not be changed during the upload.
 ///
 /// **Configuration.** Each write is checked against the whole configuration: a recorded object that does not exist is
 /// refused with 0602 0000h, one that cannot be read or is not a number of this length with 0604 0041h, any other wrong
@@ -90,9 +88,10 @@ struct CO_NODE_T;
 
 /// \name Format of the plot
 /// \{
-#define CO_RECORDER_CSV 0u          ///< text, a line for each point
-#define CO_RECORDER_BINARY 1u       ///< 8 bytes for each point
-#define CO_RECORDER_SVG 2u          ///< picture
+#define CO_RECORDER_CSV 0u     ///< text, a line for each point
+#define CO_RECORDER_BINARY 1u  ///< 8 bytes for each point
+/// Gone: refused with 0609 0030h (CO_ERR_OBJ_RANGE). Read the plot as CSV and draw it on the host: tools/plot.
+#define CO_RECORDER_SVG 2u
 #define CO_RECORDER_UNSIGNED 0x10u  ///< added to one of these: the object is unsigned
 /// \}
 
@@ -114,40 +113,27 @@ typedef struct CO_RECORDER_POINT_T {
 /// CONodeInit(), later by CORecorderConfigure() or the network.
 typedef struct CO_RECORDER_CONFIG_T {
   uint32_t Size;        ///< points in use: 0…CO_RECORDER.Num
-  uint32_t Colour;      ///< colour of the curve: RRGGBBh
+  uint32_t Colour;      ///< colour of the curve: RRGGBBh, for tools
   uint32_t Map;         ///< recorded object: CO_LINK(index, sub-index, bits), or 0
   int32_t Threshold;    ///< threshold of the trigger
   uint32_t PreTrigger;  ///< points to be kept from before the trigger
   uint16_t Period;      ///< ms between two samples; 0: CORecorderSample() only
   uint8_t Axis;         ///< axis number, for tools
-  uint8_t Format;       ///< CO_RECORDER_CSV, _BINARY or _SVG, plus CO_RECORDER_UNSIGNED
+  uint8_t Format;       ///< CO_RECORDER_CSV or _BINARY, plus CO_RECORDER_UNSIGNED
   uint8_t Trigger;      ///< CO_RECORDER_FREE, _RISING, _FALLING or _BOTH
 } CO_RECORDER_CONFIG;
 
 /// \cond internal
-/// Position in a plot that is being generated.
-typedef struct CO_RECORDER_CURSOR_T {
-  uint32_t Position;  ///< bytes of the plot before this position
-  uint32_t Left;      ///< points of the plot that are not generated yet
-  uint16_t Index;     ///< number of a character or point within a part
-  uint8_t Part;       ///< part of the format
-  uint8_t Gap;        ///< 1: points were left out before the next one
-} CO_RECORDER_CURSOR;
-
 /// Plot that is being read.
 typedef struct CO_RECORDER_PLOT_T {
-  CO_RECORDER_CURSOR Cursor;    ///< begin of the text that is generated next
-  CO_RECORDER_CURSOR Saved[2];  ///< earlier positions, the older one first, for repeated segments
-  CO_RECORDER_POINT Point;      ///< point at Cursor
-  uint32_t At;                  ///< position of the next read
-  uint32_t Total;               ///< points when the upload began
-  uint32_t Since;               ///< points recorded since then, at most the points in use
-  uint32_t Start;               ///< time of the first point
-  uint32_t Duration;            ///< ms from the first point to the last one
-  uint32_t Top;                 ///< greatest value, as an unsigned number of the same order
-  uint32_t Range;               ///< difference of greatest and least value
-  uint32_t Key;                 ///< entry that is being read
-  uint8_t Reading;              ///< 1: an upload is open
+  CO_RECORDER_POINT Point;  ///< copy of the point at Position
+  uint32_t Position;        ///< bytes of the plot before the next point
+  uint32_t At;              ///< position of the next read
+  uint32_t Left;            ///< points from the next one to the last one of the plot
+  uint32_t New;             ///< the last points of the plot, which were not read yet, also not before a repetition
+  uint32_t Since;           ///< points recorded since the upload began, at most the points in use
+  uint32_t Key;             ///< entry that is being read
+  uint8_t Reading;          ///< 1: an upload is open
 } CO_RECORDER_PLOT;
 /// \endcond
 
@@ -156,7 +142,7 @@ typedef struct CO_RECORDER_PLOT_T {
 typedef struct CO_RECORDER_T {
   CO_RECORDER_POINT* Points;   ///< memory of the points; may be null if Num is 0
   uint32_t Num;                ///< points at Points
-  CO_OBJ_STR_RW Name;          ///< title of the picture; Start may be null
+  CO_OBJ_STR_RW Name;          ///< for tools; Start may be null
   CO_RECORDER_CONFIG Config;   ///< configuration
   struct CO_NODE_T* Node;      ///< owner
   struct CO_RECORDER_T* Next;  ///< next recorder of the node

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drive that records its speed, and a master that configures the recorder and reads its picture by SDO block
-// transfer, on a simulated bus inside the program.
+// A drive that records its speed, and a master that configures the recorder and reads its plot by SDO block transfer,
+// on a simulated bus inside the program.
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -22,17 +23,17 @@ constexpr std::uint8_t master_id = 2;
 constexpr std::uint32_t in_progress = UINT32_MAX;
 
 constexpr const char* help =
-    "Records the speed of a simulated drive around a step of its setpoint, and writes a picture (SVG), which a\n"
-    "browser shows. A master configures the recorder of the drive and reads the picture by SDO, on a bus inside the\n"
+    "Records the speed of a simulated drive around a step of its setpoint, and writes the points as CSV, which\n"
+    "lexican-plot draws. A master configures the recorder of the drive and reads its plot by SDO, on a bus inside the\n"
     "program with simulated time. The entries of the recorder are in demo/recorder/device.cpp.\n"
     "Usage: lexican-demo-recorder [OPTIONS]\n"
     "\n"
     "Options:\n"
     "  -h,--help               Print this help message and exit\n"
-    "  -o,--output FILE        File of the picture; recorder.svg by default\n"
+    "  -o,--output FILE        File of the points; recorder.csv by default\n"
     "\n"
     "Exit codes:\n"
-    "    0  the picture was written\n"
+    "    0  the points were written\n"
     "    1  the drive could not be configured or read, or the file could not be written\n"
     "    2  wrong arguments\n";
 
@@ -142,9 +143,8 @@ class Bench {
 };
 
 bool configure(Bench& bench) {
-  return bench.write(0x2301, 4, 0x0060C0, 4) &&                // colour
-         bench.write(0x2301, 5, CO_LINK(0x2110, 0, 16), 4) &&  // recorded object: the speed
-         bench.write(0x2301, 6, CO_RECORDER_SVG, 1) &&         // format
+  return bench.write(0x2301, 5, CO_LINK(0x2110, 0, 16), 4) &&  // recorded object: the speed
+         bench.write(0x2301, 6, CO_RECORDER_CSV, 1) &&         // format
          bench.write(0x2301, 7, CO_RECORDER_RISING, 1) &&      // trigger: the speed reaches ...
          bench.write(0x2301, 8, 1000, 4) &&                    // ... 1000 revolutions per minute
          bench.write(0x2301, 9, 150, 4) &&                     // points from before
@@ -163,24 +163,29 @@ bool write_file(const char* name, const std::string& text) {
 
 int record(const char* output) {
   Bench bench;
+  std::string trigger;
   std::string points;
-  std::string picture;
   bench.run(10);
   const bool done = configure(bench) && bench.write(0x2100, 0, 2000, 2) && (bench.run(1000), true) &&
-                    bench.read(0x2401, 1, points) && bench.read(0x2401, 5, picture);
-  if (!done || !write_file(output, picture)) {
+                    bench.read(0x2401, 6, trigger) && bench.read(0x2401, 5, points);
+  if (!done) {
     return 1;
   }
-  const auto count =
-      static_cast<unsigned>(static_cast<std::uint8_t>(points[0]) + 256 * static_cast<std::uint8_t>(points[1]));
-  std::printf("%u points around the trigger, %zu bytes: %s\n", count, picture.size(), output);
+  const auto time =
+      static_cast<unsigned>(static_cast<std::uint8_t>(trigger[0]) + 256 * static_cast<std::uint8_t>(trigger[1]));
+  const std::string description = "# name: speed\n# object: 2110h:00\n# trigger: " + std::to_string(time) + "\n";
+  if (!write_file(output, description + points)) {
+    return 1;
+  }
+  const auto count = std::count(points.begin(), points.end(), '\n');
+  std::printf("%d points around the trigger at %u ms: %s\n", static_cast<int>(count), time, output);
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const char* output = "recorder.svg";
+  const char* output = "recorder.csv";
   for (int n = 1; n < argc; ++n) {
     const std::string_view argument = argv[n];
     if (argument == "--help" || argument == "-h") {

@@ -294,7 +294,7 @@ TEST_CASE("recorder: values out of range are refused [R5]") {
   CHECK(node.number(0x2301, 1) == 8);
   CHECK(node.number(0x2301, 9) == 7);
   for (std::uint32_t value = 0; value < 256; ++value) {
-    const bool is_format = (value & 0xEF) <= 2;
+    const bool is_format = (value & 0xEF) <= CO_RECORDER_BINARY;  // CO_RECORDER_SVG is gone
     CHECK(node.configure(6, value, 1) == (is_format ? 0 : wrong_value));
     CHECK(node.configure(7, value, 1) == (value <= 3 ? 0 : wrong_value));
     CHECK(node.configure(2, value, 1) == 0);
@@ -319,7 +319,7 @@ TEST_CASE("recorder: its configuration is read as it was written [R5]") {
   CHECK(node.configure(2, 3, 1) == 0);
   CHECK(node.configure(4, 0x123456) == 0);
   CHECK(node.configure(5, CO_LINK(0x2E02, 0, 16)) == 0);
-  CHECK(node.configure(6, 0x12, 1) == 0);
+  CHECK(node.configure(6, 0x11, 1) == 0);
   CHECK(node.configure(7, 3, 1) == 0);
   CHECK(node.configure(8, 0x89ABCDEF) == 0);
   CHECK(node.configure(9, 8) == 0);
@@ -328,7 +328,7 @@ TEST_CASE("recorder: its configuration is read as it was written [R5]") {
   node.ask("601#4001230200000000", "581#4F01230203000000");
   node.ask("601#4001230400000000", "581#4301230456341200");
   node.ask("601#4001230500000000", "581#430123051000022E");
-  node.ask("601#4001230600000000", "581#4F01230612000000");
+  node.ask("601#4001230600000000", "581#4F01230611000000");
   node.ask("601#4001230700000000", "581#4F01230703000000");
   node.ask("601#4001230800000000", "581#43012308EFCDAB89");
   node.ask("601#4001230900000000", "581#4301230908000000");
@@ -342,7 +342,7 @@ TEST_CASE("recorder: a change that concerns the points starts it anew and others
     std::size_t bytes;
     bool anew;
   } const cases[] = {{1, 15, 4, true},         {1, 16, 4, false},         {2, 1, 1, false}, {4, 1, 4, false},
-                     {5, 0x2E010008, 4, true}, {5, 0x2E000020, 4, false}, {6, 2, 1, false}, {6, 0x10, 1, true},
+                     {5, 0x2E010008, 4, true}, {5, 0x2E000020, 4, false}, {6, 1, 1, false}, {6, 0x10, 1, true},
                      {7, 1, 1, true},          {7, 0, 1, false},          {8, 1, 4, true},  {8, 0, 4, false},
                      {9, 1, 4, true},          {9, 0, 4, false},          {10, 7, 2, false}};
   for (const auto& one : cases) {

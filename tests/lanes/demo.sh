@@ -7,7 +7,7 @@ lane() {
   export CFLAGS=-Werror CXXFLAGS=-Werror
   now_in "$build/demo/build.log"
   run_pages "$root"
-  rm -f "$root/recorder.svg"
+  rm -f "$root"/recorder.{csv,svg}
   check "demo/run --virtual" shows "steps in .* all as expected" --virtual
   check "docs/pictures shows this output" same_screen
   check "demo/run thermometer" shows "TPDO1 temperature in 0.1 degrees Celsius = 1010" thermometer
@@ -27,8 +27,8 @@ same_screen() {
 }
 
 drawn() {
-  rm -f "$results/recorder.svg"
-  demo recorder --output "$results/recorder.svg" &&
+  rm -f "$results"/recorder.{csv,svg}
+  demo recorder --output "$results/recorder.csv" &&
     python3 "$root/tests/system/demo/picture.py" "$results/recorder.svg" "$results/recorder.png"
 }
 

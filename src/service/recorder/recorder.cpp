@@ -75,7 +75,7 @@ bool is_in_range(const CO_RECORDER& recorder, const CO_RECORDER_CONFIG& config) 
   constexpr uint32_t colours = 0xFFFFFF;
   const uint32_t available = recorder.Points != nullptr ? recorder.Num : 0;
   const bool is_split = config.PreTrigger == 0 || config.PreTrigger < config.Size;
-  const bool is_format = (config.Format & ~CO_RECORDER_UNSIGNED) <= CO_RECORDER_SVG;
+  const bool is_format = (config.Format & ~CO_RECORDER_UNSIGNED) <= CO_RECORDER_BINARY;
   return config.Size <= available && is_split && is_format && config.Trigger <= CO_RECORDER_BOTH &&
          config.Colour <= colours;
 }

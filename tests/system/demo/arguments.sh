@@ -44,7 +44,7 @@ answers "unknown command of the master" 2 "demo/run: unknown command 'get' of ma
 answers "unknown NMT command" 2 "demo/run: nmt needs one of: start stop preop reset-node reset-comm" master nmt begin
 answers "unknown LSS service" 2 "demo/run: lss needs one of: scan set-id set-bitrate store inquire" master lss find
 answers "argument of the thermometer" 2 "demo/run: unknown argument '20' of thermometer*" thermometer 20
-answers "argument of the recorder" 2 "demo/run: unknown argument 'x.svg' of recorder*" recorder x.svg
+answers "argument of the recorder" 2 "demo/run: unknown argument 'x.csv' of recorder*" recorder x.csv
 answers "missing value of the recorder" 2 "demo/run: option '--output' of recorder needs a value*" recorder --output
 answers "unknown board" 2 "demo/run: unknown board 'uno'; one of *" --bare-metal uno
 answers "unknown option of a board" 2 "demo/run: unknown option '--virtual' of --bare-metal*" --bare-metal microbit --virtual
