@@ -224,7 +224,7 @@
 #endif
 
 /// Recorder of objects with time and trigger, and its plot as CSV or numbers (co_recorder.h): 0 or 1. 1 costs
-/// 5.1 KB of flash (Cortex-M0+, -Os) where all its types are used, and 20 bytes of RAM (32-bit CPU); each recorder
+/// 3.3 KB of flash (Cortex-M0+, -Os) where all its types are used, and 20 bytes of RAM (32-bit CPU); each recorder
 /// costs 156 bytes of RAM and 8 bytes for each point, which the application provides.
 #ifndef USE_RECORDER
 #define USE_RECORDER 0
