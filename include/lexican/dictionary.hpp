@@ -123,14 +123,25 @@ enum class Value : std::uint8_t {
 
 /// Properties of an object type of the library.
 struct Type {
-  const CO_OBJ_TYPE* type;  ///< functions of the type
+  const CO_OBJ_TYPE* type;  ///< functions of the type; null: excluded by the configuration
   rules::Rule rule;         ///< indices, sub-indices and flags that the type allows
   Value value;              ///< kind of the values
   std::uint8_t width;       ///< bytes on the bus, 0: varies
 };
 
-/// Object types of the library, except those that the configuration excludes. A type whose rules or values depend
-/// on the sub-index has several elements.
+/// \cond internal
+// An element of types for a row of CO_OBJECTS(). The type is null if the configuration excludes it: CO_NEEDS_… is then
+// an attribute, so that CO_PROBE is not expanded and adds no argument in front of the type.
+#define CO_NEEDS_always
+#define CO_PROBE() ,
+#define CO_THIRD(first, second, third, ...) third
+#define CO_THIRD_OF(...) CO_THIRD(__VA_ARGS__, nullptr, 0)
+#define CO_TYPE_OR_NULL(...) CO_THIRD_OF(__VA_ARGS__)
+#define CO_OBJECT_TYPE(rule, type, functions, first, last, first_sub, last_sub, bytes, flags, value, use, setting) \
+  {CO_TYPE_OR_NULL(CO_PROBE CO_NEEDS_##setting(), &functions), rules::rule, Value::value, bytes},
+/// \endcond
+
+/// Object types of the library. A type whose rules or values depend on the sub-index has several elements.
 inline constexpr Type types[] = {
     {&COTBoolean, rules::boolean, Value::boolean, 1},
     {&COTInt8, rules::integer(1), Value::integer, 1},
@@ -154,86 +165,17 @@ inline constexpr Type types[] = {
     {&COTUnicodeString, rules::variable, Value::bytes, 0},
     {&COTDomain, rules::variable, Value::bytes, 0},
     {&COTDomainRo, rules::variable, Value::bytes, 0},
+    CO_OBJECTS(CO_OBJECT_TYPE)
 #if USE_EMCY
-    {&COTEmcyHist, rules::emcy_history_number, Value::unsigned_integer, 1},
-    {&COTEmcyHist, rules::emcy_history, Value::unsigned_integer, 4},
-    {&COTEmcyId, rules::emcy_cob_id, Value::unsigned_integer, 4},
-    {&COTEmcyBits, rules::variable, Value::bytes, 0},
-#endif
-#if CO_EMCY_CONS_N > 0
-    {&COTEmcyCons, rules::emcy_consumer, Value::unsigned_integer, 4},
-#endif
-    {&COTErrorBehaviour, rules::error_behaviour, Value::unsigned_integer, 1},
-#if CO_HBCONS_N > 0
-    {&COTNmtHbCons, rules::heartbeat_consumers, Value::unsigned_integer, 1},
-    {&COTNmtHbCons, rules::heartbeat_consumer, Value::unsigned_integer, 4},
-#endif
-    {&COTModuleList, rules::module_number, Value::unsigned_integer, 1},
-    {&COTModuleList, rules::module_list, Value::unsigned_integer, 2},
-#if USE_OBJ_EX
-    {&COTOsCommand.Type, rules::os_command, Value::bytes, 0},
-    {&COTOsStatus, rules::os_status, Value::unsigned_integer, 1},
-    {&COTOsReply.Type, rules::os_reply, Value::bytes, 0},
-    {&COTOsMode, rules::os_mode, Value::unsigned_integer, 1},
-#endif
-    {&COTOsStdin, rules::os_input, Value::unsigned_integer, 1},
-    {&COTOsStdout, rules::os_output, Value::unsigned_integer, 1},
-    {&COTNmtStartup, rules::nmt_startup, Value::unsigned_integer, 4},
-    {&COTNmtHbProd, rules::heartbeat_producer, Value::unsigned_integer, 2},
-    {&COTSdoId, rules::sdo_cob_id, Value::unsigned_integer, 4},
-    {&COTPdoId, rules::pdo_cob_id, Value::unsigned_integer, 4},
-    {&COTPdoType, rules::pdo_type, Value::unsigned_integer, 1},
-    {&COTPdoInhibit, rules::pdo_inhibit, Value::unsigned_integer, 2},
-    {&COTPdoEvent, rules::pdo_event, Value::unsigned_integer, 2},
-    {&COTPdoStart, rules::pdo_start, Value::unsigned_integer, 1},
-    {&COTPdoNum, rules::pdo_number, Value::unsigned_integer, 1},
-    {&COTPdoMap, rules::pdo_mapping, Value::unsigned_integer, 4},
-#if USE_MPDO
-    {&COTPdoScan, rules::pdo_scan, Value::unsigned_integer, 4},
-    {&COTPdoDispatch, rules::pdo_dispatch, Value::unsigned_integer, 8},
-#endif
-#if USE_PARA
-    {&COTParaStore, rules::parameter_group_number, Value::unsigned_integer, 1},
-    {&COTParaStore, rules::parameter_group, Value::unsigned_integer, 4},
-    {&COTParaRestore, rules::parameter_group_number, Value::unsigned_integer, 1},
-    {&COTParaRestore, rules::parameter_group, Value::unsigned_integer, 4},
-    {&COTVerifyConfig, rules::verify_configuration, Value::unsigned_integer, 4},
-#endif
-#if USE_SYNC
-    {&COTSyncId, rules::sync_cob_id, Value::unsigned_integer, 4},
-    {&COTSyncCycle, rules::sync_cycle, Value::unsigned_integer, 4},
-    {&COTSyncCount, rules::sync_counter, Value::unsigned_integer, 1},
-#endif
-#if USE_GFC
-    {&COTGfc, rules::global_fail_safe, Value::unsigned_integer, 1},
-#endif
-#if CO_SRDO_N > 0
-    {&COTSrdoCom, rules::srdo_direction, Value::unsigned_integer, 1},
-    {&COTSrdoCom, rules::srdo_cycle, Value::unsigned_integer, 2},
-    {&COTSrdoCom, rules::srdo_byte, Value::unsigned_integer, 1},
-    {&COTSrdoCom, rules::srdo_cob_id, Value::unsigned_integer, 4},
-    {&COTSrdoMap, rules::srdo_number, Value::unsigned_integer, 1},
-    {&COTSrdoMap, rules::srdo_mapping, Value::unsigned_integer, 4},
-    {&COTSrdoValid, rules::srdo_valid, Value::unsigned_integer, 1},
-    {&COTSrdoSignature, rules::srdo_signature, Value::unsigned_integer, 2},
-#endif
-#if USE_RECORDER
-    {&COTRecConfig, {0x2000, 0x5FFF, 1, 1, 0, false, false}, Value::unsigned_integer, 4},
-    {&COTRecConfig, {0x2000, 0x5FFF, 2, 2, 0, false, false}, Value::unsigned_integer, 1},
-    {&COTRecConfig, {0x2000, 0x5FFF, 4, 5, 0, false, false}, Value::unsigned_integer, 4},
-    {&COTRecConfig, {0x2000, 0x5FFF, 6, 7, 0, false, false}, Value::unsigned_integer, 1},
-    {&COTRecConfig, {0x2000, 0x5FFF, 8, 8, 0, false, false}, Value::integer, 4},
-    {&COTRecConfig, {0x2000, 0x5FFF, 9, 9, 0, false, false}, Value::unsigned_integer, 4},
-    {&COTRecConfig, {0x2000, 0x5FFF, 10, 10, 0, false, false}, Value::unsigned_integer, 2},
-    {&COTRecData, rules::recorder_data, Value::integer, 4},
-    {&COTRecData, rules::recorder_trigger_time, Value::unsigned_integer, 4},
-    {&COTRecPlot.Type, rules::recorder_plot, Value::bytes, 0},
-    {&COTRecEnable, rules::recorder_enable, Value::boolean, 1},
-#endif
-#if USE_TIME
-    {&COTTimeId, rules::time_cob_id, Value::unsigned_integer, 4},
+        {&COTEmcyBits, rules::variable, Value::bytes, 0},
 #endif
 };
+#undef CO_OBJECT_TYPE
+#undef CO_TYPE_OR_NULL
+#undef CO_THIRD_OF
+#undef CO_THIRD
+#undef CO_PROBE
+#undef CO_NEEDS_always
 
 /// Returns whether two addresses are known to be equal. If the compiler has to consider symbols at address 0
 /// (-fno-delete-null-pointer-checks, sanitizers of gcc), it can only prove that an address is equal to itself. That is
@@ -273,8 +215,14 @@ inline constexpr Extensible extensible[] = {
 };
 #endif
 
-/// Returns the original type of an extensible type, any other type unchanged.
+/// Returns the type whose rules a type follows: the original type of an extensible type; for COTParaRestore
+/// COTParaStore, because the index decides; otherwise the type itself.
 constexpr const CO_OBJ_TYPE* original(const CO_OBJ_TYPE* type) {
+#if USE_PARA
+  if (is_same(type, &COTParaRestore)) {
+    return &COTParaStore;
+  }
+#endif
 #if USE_OD
   for (const Extensible& known : extensible) {
     if (is_same(known.type, type)) {

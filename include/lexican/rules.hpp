@@ -18,6 +18,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 #include "co_cfg.h"
 #include "co_dict.h"
+#include "lexican/detail/objects.h"
 
 /// Rules for the entries of a dictionary. Not for applications: CO_OD_CHECK() and CODictInit() apply them.
 namespace co::rules {
@@ -118,112 +119,49 @@ constexpr Rule anywhere(std::uint8_t direct_width, bool node_id_relative) {
 /// stored in four).
 constexpr Rule integer(std::uint8_t width) { return anywhere(width, true); }
 
-/// \name Rules of the types of the library
-/// \{
-
 /// BOOLEAN
 inline constexpr Rule boolean = anywhere(1, false);
 /// Reals, times of day, strings and domains
 inline constexpr Rule variable = anywhere(0, false);
-/// 1016h, sub 0: number of heartbeat consumers
-inline constexpr Rule heartbeat_consumers{0x1016, 0x1016, 0, 0, 1, false, false};
-/// 1016h, other sub-indices: a heartbeat consumer
-inline constexpr Rule heartbeat_consumer{0x1016, 0x1016, 1, CO_HBCONS_N, 0, false, false};
-/// 1017h: period of the heartbeat producer
-inline constexpr Rule heartbeat_producer{0x1017, 0x1017, 0, 0, 2, false, false};
-/// 1029h: error behaviour
-inline constexpr Rule error_behaviour{0x1029, 0x1029, 0, 254, 1, false, false};
-/// 1010h and 1011h, sub 0: number of parameter groups
-inline constexpr Rule parameter_group_number{0x1010, 0x1011, 0, 0, 1, false, false};
-/// 1010h and 1011h, other sub-indices: a parameter group
-inline constexpr Rule parameter_group{0x1010, 0x1011, 1, 127, 0, false, false};
-/// 1020h: date and time of the configuration
-inline constexpr Rule verify_configuration{0x1020, 0x1020, 1, 2, 0, false, false};
-/// 1F80h: NMT start-up
-inline constexpr Rule nmt_startup{0x1F80, 0x1F80, 0, 0, 4, false, false};
-/// 1003h, sub 0: number of errors in the history
-inline constexpr Rule emcy_history_number{0x1003, 0x1003, 0, 0, 1, false, false};
-/// 1003h, other sub-indices: an error
-inline constexpr Rule emcy_history{0x1003, 0x1003, 1, 254, 0, false, false};
-/// 1014h: COB-ID of the EMCY producer
-inline constexpr Rule emcy_cob_id{0x1014, 0x1014, 0, 0, 4, true, false};
-/// 1028h: COB-ID of an EMCY consumer
-inline constexpr Rule emcy_consumer{0x1028, 0x1028, 1, 127, 4, false, false};
-/// 1200h…12FFh, sub 1 and 2: COB-IDs of an SDO server or client
-inline constexpr Rule sdo_cob_id{0x1200, 0x12FF, 1, 2, 4, true, false};
-/// 1012h: COB-ID of TIME
-inline constexpr Rule time_cob_id{0x1012, 0x1012, 0, 0, 4, true, false};
-/// 1300h: global fail-safe command
-inline constexpr Rule global_fail_safe{0x1300, 0x1300, 0, 0, 1, false, false};
-/// 1301h…1340h, sub 1: direction of an SRDO
-inline constexpr Rule srdo_direction{0x1301, 0x1340, 1, 1, 1, false, false};
-/// 1301h…1340h, sub 2: refresh time or SCT
-inline constexpr Rule srdo_cycle{0x1301, 0x1340, 2, 2, 2, false, false};
-/// 1301h…1340h, sub 3 and 4: SRVT, and transmission type
-inline constexpr Rule srdo_byte{0x1301, 0x1340, 3, 4, 1, false, false};
-/// 1301h…1340h, sub 5 and 6: COB-IDs of an SRDO
-inline constexpr Rule srdo_cob_id{0x1301, 0x1340, 5, 6, 4, false, false};
-/// 1381h…13C0h, sub 0: number of mapped objects
-inline constexpr Rule srdo_number{0x1381, 0x13C0, 0, 0, 1, false, false};
-/// 1381h…13C0h, other sub-indices: a mapped object
-inline constexpr Rule srdo_mapping{0x1381, 0x13C0, 1, 16, 4, false, false};
-/// 13FEh: configuration valid, which the stack writes
-inline constexpr Rule srdo_valid{0x13FE, 0x13FE, 0, 0, 1, false, false};
-/// 13FFh: signature of an SRDO
-inline constexpr Rule srdo_signature{0x13FF, 0x13FF, 1, 64, 2, false, false};
-/// 1005h: COB-ID of SYNC
-inline constexpr Rule sync_cob_id{0x1005, 0x1005, 0, 0, 4, true, false};
-/// 1006h and 1007h: period of SYNC, and window of synchronous PDOs
-inline constexpr Rule sync_cycle{0x1006, 0x1007, 0, 0, 4, false, false};
-/// 1019h: overflow value of the SYNC counter
-inline constexpr Rule sync_counter{0x1019, 0x1019, 0, 0, 1, false, false};
-/// 1400h… and 1800h…, sub 1: COB-ID of a PDO
-inline constexpr Rule pdo_cob_id{0x1400, 0x15FF, 1, 1, 4, true, true};
-/// 1400h… and 1800h…, sub 2: transmission type
-inline constexpr Rule pdo_type{0x1400, 0x15FF, 2, 2, 1, false, true};
-/// 1400h… and 1800h…, sub 3: inhibit time
-inline constexpr Rule pdo_inhibit{0x1400, 0x15FF, 3, 3, 2, false, true};
-/// 1400h… and 1800h…, sub 5: event timer
-inline constexpr Rule pdo_event{0x1400, 0x15FF, 5, 5, 2, false, true};
-/// 1800h…, sub 6: SYNC start value
-inline constexpr Rule pdo_start{0x1800, 0x19FF, 6, 6, 1, false, false};
-/// 1600h… and 1A00h…, sub 0: number of mapped objects
-inline constexpr Rule pdo_number{0x1600, 0x17FF, 0, 0, 1, false, true};
-/// 1600h… and 1A00h…, other sub-indices: a mapped object
-inline constexpr Rule pdo_mapping{0x1600, 0x17FF, 1, 64, 4, false, true};
-/// 1FA0h…1FCFh: object scanner list
-inline constexpr Rule pdo_scan{0x1FA0, 0x1FCF, 1, 254, 4, false, false};
-/// 1FD0h…1FFFh: object dispatching list
-inline constexpr Rule pdo_dispatch{0x1FD0, 0x1FFF, 1, 254, 8, false, false};
-/// 1023h and 1025h, sub 1: command (1024h has no sub-indices)
-inline constexpr Rule os_command{0x1023, 0x1025, 1, 1, 0, false, false};
-/// 1023h and 1025h, sub 2: status
-inline constexpr Rule os_status{0x1023, 0x1025, 2, 2, 0, false, false};
-/// 1023h and 1025h, sub 3: reply
-inline constexpr Rule os_reply{0x1023, 0x1025, 3, 3, 0, false, false};
-/// 1024h: OS command mode
-inline constexpr Rule os_mode{0x1024, 0x1024, 0, 0, 0, false, false};
-/// 1026h, sub 1: StdIn
-inline constexpr Rule os_input{0x1026, 0x1026, 1, 1, 0, false, false};
-/// 1026h, sub 2 and 3: StdOut and StdErr
-inline constexpr Rule os_output{0x1026, 0x1026, 2, 3, 0, false, false};
-/// 1027h, sub 0: number of modules
-inline constexpr Rule module_number{0x1027, 0x1027, 0, 0, 0, false, false};
-/// 1027h, all sub-indices
-inline constexpr Rule module_list{0x1027, 0x1027, 0, 254, 0, false, false};
-/// 2000h…5FFFh, sub 1 and 2: points and axis of a recorder
-inline constexpr Rule recorder_first{0x2000, 0x5FFF, 1, 2, 0, false, false};
-/// 2000h…5FFFh, sub 4 to 10: other parameters of a recorder
-inline constexpr Rule recorder_config{0x2000, 0x5FFF, 4, 10, 0, false, false};
-/// 2000h…5FFFh, sub 1 to 4: points and values of a recorder
-inline constexpr Rule recorder_data{0x2000, 0x5FFF, 1, 4, 0, false, false};
-/// 2000h…5FFFh, sub 6: time of the trigger of a recorder
-inline constexpr Rule recorder_trigger_time{0x2000, 0x5FFF, 6, 6, 0, false, false};
-/// 2000h…5FFFh: plot of a recorder
-inline constexpr Rule recorder_plot{0x2000, 0x5FFF, 0, 254, 0, false, false};
-/// 2000h…5FFFh: enables all recorders
-inline constexpr Rule recorder_enable{0x2000, 0x5FFF, 0, 254, 0, false, false};
-/// \}
+
+/// Returns whether the flags of a row of CO_OBJECTS() contain a letter.
+constexpr bool has_letter(const char* flags, char letter) {
+  while (*flags != 0 && *flags != letter) {
+    ++flags;
+  }
+  return *flags != 0;
+}
+
+/// \cond internal
+#define CO_OBJECT_RULE(rule, type, functions, first, last, first_sub, last_sub, bytes, flags, ...) \
+  inline constexpr Rule rule{first,                                                                \
+                             last,                                                                 \
+                             first_sub,                                                            \
+                             last_sub,                                                             \
+                             has_letter(#flags, 'D') ? bytes : 0,                                  \
+                             has_letter(#flags, 'N'),                                              \
+                             has_letter(#flags, 'T')};
+CO_OBJECTS(CO_OBJECT_RULE)
+#undef CO_OBJECT_RULE
+/// \endcond
+
+/// Returns the rule that allows all entries of two rules, for types with several rows: the node checks them together.
+constexpr Rule joined(Rule first, const Rule& last) {
+  first.last_index = last.last_index;
+  first.last_sub = last.last_sub;
+  return first;
+}
+
+/// 1006h and 1007h
+inline constexpr Rule sync_cycle = joined(sync_period, sync_window);
+/// 1010h and 1011h, sub 0
+inline constexpr Rule parameter_group_number = joined(store_number, restore_number);
+/// 1010h and 1011h, other sub-indices
+inline constexpr Rule parameter_group = joined(store, restore);
+/// Sub 1 and 2 of the configuration of a recorder
+inline constexpr Rule recorder_first = joined(recorder_size, recorder_axis);
+/// Sub 4 to 10
+inline constexpr Rule recorder_config = joined(recorder_colours, recorder_period);
 
 /// Returns whether an index is in the range of a rule; the indices of TPDOs are not considered.
 constexpr bool is_index(const Rule& rule, std::uint16_t index) {
