@@ -18,7 +18,7 @@ MODULES = ["wire", "hal", "base", "dictionary", "storage", "service", "od", "nod
 EXTENDS = {"mpdo": "pdo"}
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
 # Headers of the stack that codict includes: they need no configuration.
-CODICT_STACK = {"lexican/srdo.hpp"}
+CODICT_STACK = {"lexican/detail/objects.h", "lexican/srdo.hpp"}
 # Headers of the standard library that need neither an operating system nor allocation.
 FREESTANDING = {
     "algorithm", "array", "climits", "cstddef", "cstdint", "cstring", "initializer_list", "iterator", "limits", "tuple",

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "lexican/detail/objects.h"
+
 namespace lexican::codict::gen {
 
 namespace {
@@ -39,65 +41,13 @@ constexpr Form forms[] = {
     {"CO_TUNSIGNED64", "uint64_t", 0x1B, 8, 8, 8},
 };
 
-constexpr Place form_places[] = {
-    {0x1003, 0x1003, 0, 0, "CO_TEMCY_HIST", 1, Service::value, false, "USE_EMCY"},
-    {0x1003, 0x1003, 1, 254, "CO_TEMCY_HIST", 4, Service::fixed, false, "USE_EMCY"},
-    {0x1005, 0x1005, 0, 0, "CO_TSYNC_ID", 4, Service::value, true, "USE_SYNC"},
-    {0x1006, 0x1006, 0, 0, "CO_TSYNC_CYCLE", 4, Service::value, false, "USE_SYNC"},
-    {0x1007, 0x1007, 0, 0, "CO_TSYNC_WINDOW", 4, Service::value, false, "USE_SYNC"},
-    {0x1010, 0x1010, 0, 0, "CO_TPARA_STORE", 1, Service::value, false, "USE_PARA"},
-    {0x1010, 0x1010, 1, 127, "CO_TPARA_STORE", 4, Service::group, false, "USE_PARA"},
-    {0x1011, 0x1011, 0, 0, "CO_TPARA_RESTORE", 1, Service::value, false, "USE_PARA"},
-    {0x1011, 0x1011, 1, 127, "CO_TPARA_RESTORE", 4, Service::group, false, "USE_PARA"},
-    {0x1012, 0x1012, 0, 0, "CO_TTIME_ID", 4, Service::value, true, "USE_TIME"},
-    {0x1014, 0x1014, 0, 0, "CO_TEMCY_ID", 4, Service::value, true, "USE_EMCY"},
-    {0x1016, 0x1016, 0, 0, "CO_THB_CONS", 1, Service::value, false, ""},
-    {0x1016, 0x1016, 1, 127, "CO_THB_CONS", 4, Service::consumer, false, ""},
-    {0x1017, 0x1017, 0, 0, "CO_THB_PROD", 2, Service::value, false, ""},
-    {0x1019, 0x1019, 0, 0, "CO_TSYNC_COUNT", 1, Service::value, false, "USE_SYNC"},
-    {0x1020, 0x1020, 1, 2, "CO_TVERIFY_CONFIG", 4, Service::fixed, false, "USE_PARA"},
-    {0x1021, 0x1021, 0, 0, "CO_TDOMAIN_RO", 0, Service::eds, false, ""},
-    {0x1022, 0x1022, 0, 0, "CO_TUNSIGNED16", 2, Service::value, false, ""},
-    {0x1023, 0x1023, 1, 1, "CO_TOS_COMMAND", 0, Service::shared, false, "USE_OBJ_EX"},
-    {0x1023, 0x1023, 2, 2, "CO_TOS_STATUS", 1, Service::shared, false, "USE_OBJ_EX"},
-    {0x1023, 0x1023, 3, 3, "CO_TOS_REPLY", 0, Service::shared, false, "USE_OBJ_EX"},
-    {0x1024, 0x1024, 0, 0, "CO_TOS_MODE", 1, Service::shared, false, "USE_OBJ_EX"},
-    {0x1025, 0x1025, 1, 1, "CO_TOS_COMMAND", 0, Service::shared, false, "USE_OBJ_EX"},
-    {0x1025, 0x1025, 2, 2, "CO_TOS_STATUS", 1, Service::shared, false, "USE_OBJ_EX"},
-    {0x1025, 0x1025, 3, 3, "CO_TOS_REPLY", 0, Service::shared, false, "USE_OBJ_EX"},
-    {0x1026, 0x1026, 1, 1, "CO_TOS_STDIN", 1, Service::shared, false, ""},
-    {0x1026, 0x1026, 2, 3, "CO_TOS_STDOUT", 1, Service::shared, false, ""},
-    {0x1027, 0x1027, 0, 0, "CO_TMODULE_LIST", 1, Service::shared, false, ""},
-    {0x1027, 0x1027, 1, 254, "CO_TMODULE_LIST", 2, Service::shared, false, ""},
-    {0x1028, 0x1028, 1, 127, "CO_TEMCY_CONS", 4, Service::value, false, "USE_EMCY"},
-    {0x1029, 0x1029, 1, 254, "CO_TERROR_BEHAVIOUR", 1, Service::value, false, ""},
-    {0x1200, 0x12FF, 1, 2, "CO_TSDO_ID", 4, Service::value, true, ""},
-    {0x1300, 0x1300, 0, 0, "CO_TGFC", 1, Service::value, false, "USE_GFC"},
-    {0x1301, 0x1340, 1, 1, "CO_TSRDO_COM", 1, Service::value, false, ""},
-    {0x1301, 0x1340, 2, 2, "CO_TSRDO_COM", 2, Service::value, false, ""},
-    {0x1301, 0x1340, 3, 4, "CO_TSRDO_COM", 1, Service::value, false, ""},
-    {0x1301, 0x1340, 5, 6, "CO_TSRDO_COM", 4, Service::value, false, ""},
-    {0x1381, 0x13C0, 0, 0, "CO_TSRDO_MAP", 1, Service::value, false, ""},
-    {0x1381, 0x13C0, 1, 16, "CO_TSRDO_MAP", 4, Service::value, false, ""},
-    {0x13FE, 0x13FE, 0, 0, "CO_TSRDO_VALID", 1, Service::fixed, false, ""},
-    {0x13FF, 0x13FF, 1, 64, "CO_TSRDO_SIGNATURE", 2, Service::value, false, ""},
-    {0x1400, 0x15FF, 1, 1, "CO_TPDO_ID", 4, Service::value, true, ""},
-    {0x1400, 0x15FF, 2, 2, "CO_TPDO_TYPE", 1, Service::value, false, ""},
-    {0x1400, 0x15FF, 3, 3, "CO_TPDO_INHIBIT", 2, Service::value, false, ""},
-    {0x1400, 0x15FF, 5, 5, "CO_TPDO_EVENT", 2, Service::value, false, ""},
-    {0x1600, 0x17FF, 0, 0, "CO_TPDO_NUM", 1, Service::value, false, ""},
-    {0x1600, 0x17FF, 1, 64, "CO_TPDO_MAP", 4, Service::value, false, ""},
-    {0x1800, 0x19FF, 1, 1, "CO_TPDO_ID", 4, Service::value, true, ""},
-    {0x1800, 0x19FF, 2, 2, "CO_TPDO_TYPE", 1, Service::value, false, ""},
-    {0x1800, 0x19FF, 3, 3, "CO_TPDO_INHIBIT", 2, Service::value, false, ""},
-    {0x1800, 0x19FF, 5, 5, "CO_TPDO_EVENT", 2, Service::value, false, ""},
-    {0x1800, 0x19FF, 6, 6, "CO_TPDO_START", 1, Service::value, false, ""},
-    {0x1A00, 0x1BFF, 0, 0, "CO_TPDO_NUM", 1, Service::value, false, ""},
-    {0x1A00, 0x1BFF, 1, 64, "CO_TPDO_MAP", 4, Service::value, false, ""},
-    {0x1F80, 0x1F80, 0, 0, "CO_TNMT_STARTUP", 4, Service::value, false, ""},
-    {0x1FA0, 0x1FCF, 1, 254, "CO_TPDO_SCAN", 4, Service::value, false, "USE_MPDO"},
-    {0x1FD0, 0x1FFF, 1, 254, "CO_TPDO_DISPATCH", 8, Service::value, false, "USE_MPDO"},
-};
+// The stack's own list, and objects with a plain type. The setting of a row is a name here.
+#define CODICT_PLACE(rule, type, functions, first, last, first_sub, last_sub, bytes, flags, value, use, setting) \
+  {first, last, first_sub, last_sub, #type, bytes, Service::use, #flags, #setting},
+constexpr Place form_places[] = {{0x1021, 0x1021, 0, 0, "CO_TDOMAIN_RO", 0, Service::eds, "", ""},
+                                 {0x1022, 0x1022, 0, 0, "CO_TUNSIGNED16", 2, Service::value, "", ""},
+                                 CO_OBJECTS(CODICT_PLACE)};
+#undef CODICT_PLACE
 
 // Returns an unsigned C literal: decimal below 10000h, else hexadecimal.
 std::string unsigned_literal(std::uint64_t number, std::uint8_t size) {
@@ -150,18 +100,27 @@ const Form& unsigned_form(std::uint8_t bytes) {
   });
 }
 
+bool Place::contains(std::uint16_t index, std::uint8_t sub_index) const {
+  constexpr std::uint16_t from_rpdo_to_tpdo = 0x0400;
+  const bool of_tpdo = flags.find('T') != std::string_view::npos && index >= first + from_rpdo_to_tpdo;
+  const int of_row = of_tpdo ? index - from_rpdo_to_tpdo : index;
+  return of_row >= first && of_row <= last && sub_index >= first_sub && sub_index <= last_sub &&
+         service != Service::none;
+}
+
 const Place* place_of(std::uint16_t index, std::uint8_t sub_index, bool has_subs) {
-  for (const Place& place : form_places) {
-    const bool is_number = place.first == 0x1003 || place.first == 0x1016 || place.type == "CO_TPDO_NUM" ||
-                           place.first == 0x1010 || place.first == 0x1011 || place.type == "CO_TSRDO_MAP" ||
-                           place.type == "CO_TMODULE_LIST";
-    const bool has_shape = sub_index != 0 || has_subs == is_number;
-    if (index >= place.first && index <= place.last && sub_index >= place.first_sub && sub_index <= place.last_sub &&
-        has_shape) {
-      return &place;
-    }
+  const auto find = [index](std::uint8_t sub) {
+    const Place* const found = std::find_if(std::begin(form_places), std::end(form_places),
+                                            [=](const Place& place) { return place.contains(index, sub); });
+    return found != std::end(form_places) ? found : nullptr;
+  };
+  const Place* const place = find(sub_index);
+  if (place == nullptr || sub_index != 0) {
+    return place;
   }
-  return nullptr;
+  const Place* const other = find(1);
+  const bool is_number = other != nullptr && other->first == place->first;
+  return place->last_sub == 0 && has_subs == is_number ? place : nullptr;
 }
 
 std::string literal(const Integer& number, const Form& form) {

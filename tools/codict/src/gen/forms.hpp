@@ -36,6 +36,7 @@ enum class Service : std::uint8_t {
   eds,       ///< the entry is the device's own EDS (CO_OBJ_DOM_RO)
   shared,    ///< the entries of an object are a structure of the application (CO_OS_COMMAND, CO_OS_PROMPT,
              ///< CO_MODULE_LIST)
+  none,      ///< not generated from a description
 };
 
 /// Entries of the communication profile that a service of the stack uses in one way.
@@ -47,8 +48,11 @@ struct Place {
   std::string_view type;  ///< "CO_THB_PROD"
   std::uint8_t bytes;     ///< length of the value in bytes; 0: OCTET_STRING or DOMAIN
   Service service;
-  bool node_id_relative;
-  std::string_view needs;  ///< macro of co_cfg.h that must not be 0; may be empty
+  std::string_view flags;  ///< N: $NODEID is allowed; T: of RPDOs, and 400h higher of TPDOs
+  std::string_view needs;  ///< setting of co_cfg.h that must not be 0; not only names with USE_
+
+  bool is_node_id_relative() const { return flags.find('N') != std::string_view::npos; }
+  bool contains(std::uint16_t index, std::uint8_t sub_index) const;
 };
 
 /// Returns the place of an entry in the communication profile, null for objects that no service uses.

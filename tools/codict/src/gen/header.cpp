@@ -88,6 +88,7 @@ class Configuration {
       raise(service->macro, item.index - service->first + 1U);
       need(service->needs);
     }
+    need(item.index == 0x1028 && item.place != nullptr ? "USE_EMCY" : "");
     if (item.index == 0x1016 || item.index == 0x1028) {
       raise(item.index == 0x1016 ? "CO_HBCONS_N" : "CO_EMCY_CONS_N", item.sub_index);
     }
@@ -97,7 +98,7 @@ class Configuration {
   }
 
   void need(std::string_view macro) {
-    if (!macro.empty()) {
+    if (macro.substr(0, 4) == "USE_") {
       needs_.emplace(macro);
     }
   }

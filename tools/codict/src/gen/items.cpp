@@ -312,7 +312,7 @@ class Items {
     if (!item.value.adds_node_id) {
       return true;
     }
-    const bool may_add = item.place != nullptr ? item.place->node_id_relative
+    const bool may_add = item.place != nullptr ? item.place->is_node_id_relative()
                                                : is_integer(data_type(item.form->code).kind) && item.value.is_integer();
     if (!may_add) {
       findings_.add(rules::node_id, item.value.span,
