@@ -5,7 +5,7 @@
 
 #include "base/callbacks.hpp"
 #include "base/error.hpp"
-#include "base/gate.hpp"
+#include "base/access_hook.hpp"
 #include "base/routes.hpp"
 #include "base/transmit.hpp"
 #include "co_assert.h"

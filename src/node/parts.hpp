@@ -19,7 +19,7 @@
 #include "service/mpdo/mpdo.hpp"
 #include "service/nmt/error_behaviour.hpp"
 #include "service/pdo/pdo.hpp"
-#include "service/recorder/recorder.hpp"
+#include "extra/recorder/recorder.hpp"
 #include "service/sdo_client/sdo_client.hpp"
 #include "service/sdo_server/sdo_server.hpp"
 #include "service/srdo/srdo.hpp"

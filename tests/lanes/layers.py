@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The include rules: include < wire < hal < base < dictionary < storage < service < od < node; drivers include only include/.
+"""The include rules: include < wire < hal < base < dictionary < storage < service < extra < node; drivers include only include/.
 The modules of tools/codict/src: text < model < eds, xdd < check, gen and so on < network < catalogue < cli; none includes one of
 its own level.
 
@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-MODULES = ["wire", "hal", "base", "dictionary", "storage", "service", "od", "node"]
+MODULES = ["wire", "hal", "base", "dictionary", "storage", "service", "extra", "node"]
 # A service that extends another one includes it.
 EXTENDS = {"mpdo": "pdo"}
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
@@ -142,8 +142,8 @@ CLEAN = {
     "src/service/pdo/pdo.hpp": "",
     "src/service/mpdo/mpdo.cpp": '#include "service/mpdo/mpdo.hpp"\n#include "service/pdo/pdo.hpp"\n',
     "src/service/mpdo/mpdo.hpp": "",
-    "src/od/flags.cpp": '#include "service/pdo/pdo.hpp"\n#include "od/list.hpp"\n',
-    "src/od/list.hpp": "",
+    "src/extra/od/flags.cpp": '#include "service/pdo/pdo.hpp"\n#include "extra/od/index.hpp"\n',
+    "src/extra/od/index.hpp": "",
     "src/node/parts.cpp": '#include "service/nmt/nmt.hpp"\n#include "service/pdo/pdo.hpp"\n',
     "drivers/can/socket.cpp": '#include "co_b.h"\n#include "socket.h"\n#include <sys/socket.h>\n',
     "drivers/can/socket.h": "",
@@ -163,7 +163,7 @@ PLANTED = {
     "a service includes another service": ("src/service/pdo/pdo.cpp", '#  include "service/nmt/nmt.hpp"'),
     "a service includes one that extends it": ("src/service/pdo/pdo.cpp", '#include "service/mpdo/mpdo.hpp"'),
     "a service that extends another one includes a third one": ("src/service/mpdo/mpdo.cpp", '#include "service/nmt/nmt.hpp"'),
-    "a service includes the OD access interface": ("src/service/pdo/pdo.cpp", '#include "od/list.hpp"'),
+    "a service includes the OD access interface": ("src/service/pdo/pdo.cpp", '#include "extra/od/index.hpp"'),
     "a source needs a hosted library": ("src/dictionary/dict.cpp", "#include <vector>"),
     "a source includes by a relative path": ("src/dictionary/dict.cpp", '#include "../wire/sdo.hpp"'),
     "a source defines a macro": ("src/dictionary/dict.cpp", "#define FAST 1"),

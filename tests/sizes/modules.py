@@ -27,9 +27,9 @@ def pieces(text):
 
 
 def module_of(source):
-    """Returns "base" for src/base/…, "sdo_server" for src/service/sdo_server/…."""
+    """Returns "base" for src/base/…, "sdo_server" for src/service/sdo_server/…, "od" for src/extra/od/…."""
     parts = Path(source).parts
-    return parts[1] if parts[0] == "service" else parts[0]
+    return parts[1] if parts[0] in ("service", "extra") else parts[0]
 
 
 def main():

@@ -2,7 +2,7 @@
 // Object scanner list and object dispatching list, resolved into CO_MPDO. [301:7.5.2.39-40]
 #pragma once
 
-#include "service/pdo/plan.hpp"
+#include "service/pdo/mapping.hpp"
 
 namespace co::mpdo {
 

@@ -2,7 +2,7 @@
 // Configuration of PDOs from the dictionary.
 #pragma once
 
-#include "service/pdo/plan.hpp"
+#include "service/pdo/mapping.hpp"
 
 namespace co::pdo {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/callbacks.hpp"
-#include "service/pdo/plan.hpp"
+#include "service/pdo/mapping.hpp"
 
 namespace co::pdo {
 

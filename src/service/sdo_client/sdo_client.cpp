@@ -2,7 +2,7 @@
 #include "service/sdo_client/sdo_client.hpp"
 
 #include "base/events.hpp"
-#include "base/machine.hpp"
+#include "base/state_machine.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "service/sdo_client/transfer.hpp"

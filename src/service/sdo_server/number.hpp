@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/events.hpp"
-#include "base/gate.hpp"
+#include "base/access_hook.hpp"
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/number.hpp"

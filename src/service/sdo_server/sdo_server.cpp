@@ -2,7 +2,7 @@
 #include "service/sdo_server/sdo_server.hpp"
 
 #include "base/events.hpp"
-#include "base/machine.hpp"
+#include "base/state_machine.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The access hook of SDO transfers.
-#include "base/gate.hpp"
+#include "base/access_hook.hpp"
 
 #include "service/sdo_server/transfer.hpp"
 

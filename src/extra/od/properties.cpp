@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "od/kind.hpp"
+#include "extra/od/properties.hpp"
 
 #if USE_OD
 

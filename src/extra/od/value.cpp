@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access to variables: lookup, extensions, and reading and writing of whole values (co_od.h).
 #include "dictionary/dict.hpp"
-#include "od/kind.hpp"
-#include "od/list.hpp"
-#include "od/transfer.hpp"
+#include "extra/od/properties.hpp"
+#include "extra/od/index.hpp"
+#include "extra/od/transfer.hpp"
 
 #if USE_OD
 

@@ -5,8 +5,8 @@
 #include "base/events.hpp"
 #include "dictionary/obj.hpp"
 #include "dictionary/types/place.hpp"
-#include "od/list.hpp"
-#include "od/result.hpp"
+#include "extra/od/index.hpp"
+#include "extra/od/result.hpp"
 
 #if USE_OD && USE_PARA
 

@@ -4,8 +4,8 @@
 #include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
 #include "hal/port.hpp"
-#include "od/transfer.hpp"
-#include "od/types.hpp"
+#include "extra/od/transfer.hpp"
+#include "extra/od/types.hpp"
 #include "wire/bytes.hpp"
 
 #if USE_OD

@@ -2,7 +2,7 @@
 // PDO flags of an object: which PDOs have been transmitted or received with it.
 #include "base/error.hpp"
 #include "base/events.hpp"
-#include "od/list.hpp"
+#include "extra/od/index.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/list.hpp"
 #include "service/pdo/multiplex.hpp"

@@ -6,7 +6,7 @@
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/place.hpp"
-#include "service/recorder/recorder.hpp"
+#include "extra/recorder/recorder.hpp"
 
 #if USE_RECORDER
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "service/pdo/plan.hpp"
+#include "service/pdo/mapping.hpp"
 
 #include "base/error.hpp"
 #include "base/events.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "od/result.hpp"
+#include "extra/od/result.hpp"
 
 #if USE_OD
 

@@ -2,9 +2,9 @@
 // Common functions of the types of extensible entries.
 #pragma once
 
-#include "od/kind.hpp"
-#include "od/list.hpp"
-#include "od/result.hpp"
+#include "extra/od/properties.hpp"
+#include "extra/od/index.hpp"
+#include "extra/od/result.hpp"
 
 #if USE_OD
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "od/list.hpp"
+#include "extra/od/index.hpp"
 
 #if USE_OD
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Types of extensible entries: common functions, and values.
-#include "od/types.hpp"
+#include "extra/od/types.hpp"
 
 #if USE_OD
 

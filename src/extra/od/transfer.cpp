@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "od/transfer.hpp"
+#include "extra/od/transfer.hpp"
 
 #if USE_OD
 
@@ -7,7 +7,7 @@
 #include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
 #include "hal/port.hpp"
-#include "od/kind.hpp"
+#include "extra/od/properties.hpp"
 
 namespace co::od {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "service/recorder/recorder.hpp"
+#include "extra/recorder/recorder.hpp"
 
 #include "base/error.hpp"
 #include "base/events.hpp"

@@ -2,7 +2,7 @@
 // Object types of a recorder, except that of its plot.
 #include "dictionary/dict.hpp"
 #include "dictionary/types/place.hpp"
-#include "service/recorder/recorder.hpp"
+#include "extra/recorder/recorder.hpp"
 
 #if USE_RECORDER
 

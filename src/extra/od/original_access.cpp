@@ -7,10 +7,10 @@
 #include "dictionary/types/place.hpp"
 #include "dictionary/types/stream.hpp"
 #include "hal/port.hpp"
-#include "od/kind.hpp"
-#include "od/result.hpp"
-#include "od/types.hpp"
-#include "service/pdo/plan.hpp"
+#include "extra/od/properties.hpp"
+#include "extra/od/result.hpp"
+#include "extra/od/types.hpp"
+#include "service/pdo/mapping.hpp"
 #include "wire/bytes.hpp"
 
 #if USE_OD
