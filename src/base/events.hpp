@@ -127,6 +127,9 @@ enum class Outlet : uint8_t {
 // Sets the node-ID that the application has chosen.
 void change_node_id(CO_NODE& node, uint8_t id);
 
+// Sets a new bit rate of the CAN controller, in bit/s; its filters are kept. [305]
+void set_bit_rate(CO_NODE& node, uint32_t rate);
+
 // Reports that the state of the LSS slave has changed.
 void change_lss(CO_NODE& node);
 

@@ -6,6 +6,17 @@
 #include "co_obj.h"
 #include "wire/abort.hpp"
 
+namespace co {
+
+// Returns Data of an entry as a pointer: to its variable, or to the structure that describes a string, a domain or
+// another object that is more than a value.
+template <class T>
+[[nodiscard]] T* data_of(const CO_OBJ& obj) {
+  return reinterpret_cast<T*>(uintptr_t{obj.Data});
+}
+
+}  // namespace co
+
 namespace co::obj {
 
 // Returns whether the object is a stream of bytes, which has a position that Reset() sets; any other object is a value.

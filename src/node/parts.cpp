@@ -174,6 +174,14 @@ void event::change_node_id(CO_NODE& node, uint8_t id) {
   parts::run<&Part::of_node_id>(node, id);
 }
 
+void event::set_bit_rate(CO_NODE& node, uint32_t rate) {
+  node.Baudrate = rate;
+  port::can_close(node);
+  port::can_init(node);
+  routes::publish(node);
+  port::can_enable(node, rate);
+}
+
 void event::change_lss(CO_NODE& node) { parts::run<&Part::of_lss_changed>(node); }
 
 void event::lose_communication(CO_NODE& node) { error_behaviour::lose_communication(node); }

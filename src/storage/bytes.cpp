@@ -2,7 +2,6 @@
 // Records in a memory whose driver has no Shape function: bytes without header, as in CANopen-Stack.
 #include "hal/port.hpp"
 #include "storage/budget.hpp"
-#include "storage/slots.hpp"
 #include "storage/store.hpp"
 
 #if USE_PARA

@@ -2,8 +2,8 @@
 // 1010h, 1011h and 1020h. [301:7.5.2.13, 7.5.2.14, 7.5.2.23]
 #include "base/events.hpp"
 #include "dictionary/dict.hpp"
+#include "dictionary/obj.hpp"
 #include "dictionary/types/integer.hpp"
-#include "dictionary/types/place.hpp"
 #include "hal/port.hpp"
 #include "storage/budget.hpp"
 #include "storage/groups.hpp"

@@ -9,11 +9,9 @@
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
-#include "dictionary/types/place.hpp"
 #include "hal/port.hpp"
 #include "storage/budget.hpp"
 #include "storage/groups.hpp"
-#include "storage/slots.hpp"
 #include "storage/store.hpp"
 
 namespace co::para {

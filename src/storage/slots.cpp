@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "storage/slots.hpp"
+#include "storage/store.hpp"
 
 #include "base/events.hpp"
 #include "co_assert.h"

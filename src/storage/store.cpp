@@ -2,7 +2,6 @@
 #include "storage/store.hpp"
 
 #include "hal/port.hpp"
-#include "storage/slots.hpp"
 
 #if USE_PARA
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Default values of variables that no parameter group stores. [301:7.3.2.2.1]
 #include "co_dict.h"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 
 namespace {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of COTDomain: memory of fixed size, read and written in pieces from CO_OBJ_DOM.Offset on.
+// Functions of COTDomain, memory of fixed size, and COTDomainRo, constant memory: read and written in pieces from
+// Offset on.
 #include "co_domain.h"
 
 #include "dictionary/types/stream.hpp"
@@ -11,23 +12,25 @@ namespace {
 using co::stream::clip;
 
 // Returns the domain of an entry; null: the entry has no domain, or the domain has no memory.
-CO_OBJ_DOM* find_domain(const CO_OBJ& obj) {
-  auto* const domain = co::data_of<CO_OBJ_DOM>(obj);
+template <class Domain>
+Domain* find_domain(const CO_OBJ& obj) {
+  auto* const domain = co::data_of<Domain>(obj);
   return domain == nullptr || domain->Start == nullptr ? nullptr : domain;
 }
 
 // Returns the length in bytes of an upload (width 0): the size of the domain. Returns the length nearest to width that
 // a download may have: a download may be shorter than the domain.
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t width) {
-  const CO_OBJ_DOM* const domain = find_domain(*obj);
+  const CO_OBJ_DOM* const domain = find_domain<CO_OBJ_DOM>(*obj);
   if (domain == nullptr) {
     return 0;
   }
   return width != 0 && width < domain->Size ? width : domain->Size;
 }
 
+template <class Domain>
 CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
-  CO_OBJ_DOM* const domain = find_domain(*obj);
+  Domain* const domain = find_domain<Domain>(*obj);
   if (domain == nullptr) {
     return CO_ERR_BAD_ARG;
   }
@@ -38,7 +41,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  CO_OBJ_DOM* const domain = find_domain(*obj);
+  CO_OBJ_DOM* const domain = find_domain<CO_OBJ_DOM>(*obj);
   if (domain == nullptr) {
     return CO_ERR_BAD_ARG;
   }
@@ -51,6 +54,19 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_ERR_NONE;
 }
 
+static_assert(offsetof(CO_OBJ_DOM_RO, Offset) == 0);
+
+uint32_t size_of_constant(CO_OBJ* obj, CO_NODE*, uint32_t) {
+  const auto* const domain = find_domain<CO_OBJ_DOM_RO>(*obj);
+  return domain == nullptr ? 0 : domain->Size;
+}
+
 }  // namespace
 
-extern "C" const CO_OBJ_TYPE COTDomain = {size, co::stream::init, read, write, co::stream::reset};
+extern "C" {
+
+const CO_OBJ_TYPE COTDomain = {size, co::stream::init, read<CO_OBJ_DOM>, write, co::stream::reset};
+
+const CO_OBJ_TYPE COTDomainRo = {size_of_constant, co::stream::init, read<CO_OBJ_DOM_RO>, nullptr, co::stream::reset};
+
+}  // extern "C"

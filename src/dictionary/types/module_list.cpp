@@ -4,7 +4,7 @@
 
 #include "co_core.h"
 #include "dictionary/dict.hpp"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 #include "hal/port.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include "base/events.hpp"
 #include "co_core.h"
 #include "co_number.h"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 #include "hal/port.hpp"
 #include "wire/bytes.hpp"
 

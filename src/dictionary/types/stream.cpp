@@ -5,7 +5,6 @@
 #include "co_string.h"
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
-#include "dictionary/types/whole.hpp"
 #if USE_OD
 #include "co_od.h"
 

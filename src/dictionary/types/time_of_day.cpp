@@ -2,7 +2,7 @@
 #include "co_time_of_day.h"
 
 #include "dictionary/dict.hpp"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 #include "hal/port.hpp"
 #include "wire/time.hpp"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dictionary/types/whole.hpp"
 
 #include "co_core.h"
 #include "dictionary/obj.hpp"

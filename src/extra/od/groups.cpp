@@ -4,7 +4,6 @@
 
 #include "base/events.hpp"
 #include "dictionary/obj.hpp"
-#include "dictionary/types/place.hpp"
 #include "extra/od/index.hpp"
 #include "extra/od/result.hpp"
 

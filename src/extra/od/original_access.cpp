@@ -4,12 +4,12 @@
 // data.
 #include "base/events.hpp"
 #include "dictionary/access.hpp"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 #include "dictionary/types/stream.hpp"
-#include "hal/port.hpp"
 #include "extra/od/properties.hpp"
 #include "extra/od/result.hpp"
 #include "extra/od/types.hpp"
+#include "hal/port.hpp"
 #include "service/pdo/mapping.hpp"
 #include "wire/bytes.hpp"
 

@@ -4,7 +4,6 @@
 #if USE_OD
 
 #include "dictionary/obj.hpp"
-#include "dictionary/types/place.hpp"
 #include "dictionary/types/stream.hpp"
 #include "wire/bytes.hpp"
 

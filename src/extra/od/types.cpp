@@ -9,7 +9,7 @@
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
-#include "dictionary/types/whole.hpp"
+#include "dictionary/types/stream.hpp"
 #include "service/pdo/pdo.hpp"
 
 namespace co::od {

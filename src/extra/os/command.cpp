@@ -11,7 +11,7 @@
 #include "co_assert.h"
 #include "co_core.h"
 #include "dictionary/dict.hpp"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 #include "dictionary/types/stream.hpp"
 #include "wire/bytes.hpp"
 

@@ -10,7 +10,7 @@
 #include "co_core.h"
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Object types of a recorder, except that of its plot.
 #include "dictionary/dict.hpp"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 #include "extra/recorder/recorder.hpp"
 
 #if USE_RECORDER

@@ -5,7 +5,7 @@
 // that has lost segments goes back point by point: the length of each one follows from its content.
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 #include "extra/recorder/recorder.hpp"
 
 #if USE_RECORDER

@@ -8,7 +8,6 @@
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
-#include "dictionary/types/place.hpp"
 #include "wire/bytes.hpp"
 
 #if USE_RECORDER

@@ -2,10 +2,13 @@
 #include "service/guarding/guarding.hpp"
 
 #include "base/callbacks.hpp"
+#include "base/error.hpp"
 #include "base/events.hpp"
+#include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
+#include "wire/cob_id.hpp"
 #include "wire/nmt.hpp"
 
 #if USE_GUARDING
@@ -93,3 +96,22 @@ void reset(CO_NODE& node) {
 }  // namespace co::guarding
 
 #endif
+
+namespace co::guarding {
+
+void init(CO_NODE& node) {
+  routes::add(node, wire::CobId::error_control + node.NodeId, routes::owner<PartId::error_control>(0));
+  if constexpr (USE_GUARDING != 0) {
+    reset(node);
+  }
+}
+
+bool on_frame(CO_NODE& node, const CO_IF_FRM&, uint16_t) {
+  if (node.Error == CO_ERR_NONE) {  // the bus does not replace an error that was not read yet
+    error::report(node, CO_ERR_NODE_ID_TWICE);
+  }
+  event::raise(node, event::Fault::collision, node.NodeId);
+  return false;
+}
+
+}  // namespace co::guarding

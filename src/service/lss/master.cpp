@@ -8,7 +8,6 @@
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "co_assert.h"
-#include "service/lss/bit_rate.hpp"
 #include "wire/lss.hpp"
 
 namespace co::lss_master {
@@ -197,7 +196,7 @@ CO_ERR activate(CO_LSSM& master, CO_LSSM_CALLBACK callback, uint32_t delay) {
 
 void switch_own_bit_rate(CO_LSSM& master) {
   if (master.Baudrate != 0) {
-    lss::take_bit_rate(*master.Node, master.Baudrate);
+    event::set_bit_rate(*master.Node, master.Baudrate);
   }
   enter_state(master, State::switched);
 }

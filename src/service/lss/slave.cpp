@@ -3,17 +3,16 @@
 
 #if USE_LSS
 
+#include "base/access_hook.hpp"
 #include "base/callbacks.hpp"
 #include "base/error.hpp"
 #include "base/events.hpp"
-#include "base/access_hook.hpp"
-#include "base/state_machine.hpp"
 #include "base/routes.hpp"
+#include "base/state_machine.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
-#include "service/lss/bit_rate.hpp"
 #include "storage/budget.hpp"
 #include "wire/lss.hpp"
 
@@ -159,7 +158,7 @@ void call_after_delay(CO_NODE& node, CO_TMR_FUNC then) {
 
 void switch_rate(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
-  take_bit_rate(node, node.Baudrate);
+  event::set_bit_rate(node, node.Baudrate);
   call_after_delay(node, end_switch);
 }
 

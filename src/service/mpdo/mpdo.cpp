@@ -89,7 +89,11 @@ extern "C" CO_ERR COTPdoSendTo(CO_NODE* node, uint16_t num, uint8_t node_id, uin
     return CO_ERR_BAD_ARG;
   }
   const event::Call call(*node);
-  return mpdo::send_to(*node, num, node_id, key, value);
+  if constexpr (CO_TPDO_N == 0) {
+    return CO_ERR_TPDO_NUM_TRIGGER;
+  } else {
+    return mpdo::send_to(*node, num, node_id, key, value);
+  }
 }
 
 #endif

@@ -5,7 +5,7 @@
 #include "co_core.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/lock.hpp"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 #include "wire/bytes.hpp"
 
 namespace co::pdo {

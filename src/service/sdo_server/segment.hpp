@@ -7,7 +7,7 @@
 #include "base/transmit.hpp"
 #include "co_assert.h"
 #include "co_domain.h"
-#include "dictionary/types/place.hpp"
+#include "dictionary/obj.hpp"
 #include "service/sdo_server/transfer.hpp"
 
 namespace co::sdo_server {

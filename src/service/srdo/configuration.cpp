@@ -7,7 +7,7 @@
 #include "dictionary/dict.hpp"
 #include "dictionary/lock.hpp"
 #include "dictionary/obj.hpp"
-#include "dictionary/types/whole.hpp"
+#include "dictionary/types/stream.hpp"
 #include "lexican/srdo.hpp"
 #include "wire/bytes.hpp"
 #include "wire/cob_id.hpp"

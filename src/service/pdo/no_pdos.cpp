@@ -1,7 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of tpdo.cpp for configurations without TPDOs.
+// Functions of rpdo.cpp and tpdo.cpp for configurations without RPDOs or without TPDOs.
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/pdo.hpp"
+
+#if CO_RPDO_N == 0
+
+namespace co::pdo {
+
+void end_rpdo(CO_NODE&, CO_PDO&) {}
+void begin_rpdo(CO_PDO&, uint32_t, uint32_t) {}
+void change_deadline(CO_NODE&, unsigned, uint32_t) {}
+bool was_received(CO_NODE&, uint16_t) { return false; }
+bool was_received(CO_NODE&, const CO_OBJ&) { return false; }
+
+}  // namespace co::pdo
+
+#endif
 
 #if CO_TPDO_N == 0
 
