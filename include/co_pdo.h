@@ -86,7 +86,10 @@ extern "C" {
 
 struct CO_NODE_T;
 
-/// Resolved mapping of a PDO.
+/// Resolved mapping of a PDO. Invariants (mapping.cpp, is_consistent()):
+/// - a PDO without a valid mapping does not exist: Length is 0;
+/// - Length is at most 64 bits, and the sum of the lengths in Step;
+/// - Entry is FFFFh behind the last mapped object.
 typedef struct CO_PDO_MAP_T {
   uint8_t Flags;  ///< flags of the PDO
 #if USE_MPDO

@@ -14,7 +14,9 @@
 extern "C" {
 #endif
 
-/// One SDO server channel (1200h, 1201h, …).
+/// One SDO server channel (1200h, 1201h, …). Invariants between frames (sdo_server.cpp, is_consistent()):
+/// - without an open transfer (State 0) there is no object: Obj is null;
+/// - in a block, Seq and AckSeq are at most 127, and the buffer contains at most CO_SDO_BUF_BYTE bytes (Fill).
 typedef struct CO_SDO_T {
   struct CO_NODE_T* Node;  ///< owner
   uint8_t State;           ///< state of the protocol; 0: no transfer is open

@@ -41,7 +41,11 @@ typedef struct CO_TMR_MEM_T {
   uint8_t Owner;              ///< 0: a module of the stack; 1: the pool; 2: SYNC or a PDO (CONodeRealTime())
 } CO_TMR_MEM;
 
-/// The timers of a node: &node.Tmr. The application must not access the members.
+/// The timers of a node: &node.Tmr. The application must not access the members. Invariants (timer.cpp,
+/// is_consistent()):
+/// - each running timer is in the list First once: elapsed ones, then from *Armed on armed ones, by time of expiry;
+/// - End is the link behind the last armed timer, if there is one;
+/// - each timer of the pool is running, in the list Free, or was never used (behind Used).
 typedef struct CO_TMR_T {
   CO_TMR_MEM* First;       ///< running timers: elapsed ones, oldest first, then armed ones, by time
   struct CO_NODE_T* Node;  ///< owner

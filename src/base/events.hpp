@@ -12,7 +12,7 @@ namespace co::event {
 
 // Requests an NMT state: run_deferred() enters it. The last request counts; CO_INVALID (CONodeStop()) is final.
 void request_mode(CO_NODE& node, CO_MODE requested);
-// Enters the requested NMT state: calls the application's callback, sets the permissions, then informs every service.
+// Enters the requested NMT state: calls the application's callback, sets the permissions, then informs every part.
 // The caller keeps the node working.
 void enter_requested_mode(CO_NODE& node);
 

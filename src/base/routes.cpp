@@ -35,7 +35,7 @@ bool is_behind(const CO_ROUTES& routes, unsigned place, uint32_t identifier, uin
 
 // Returns whether the routes are in their order, end with the mark, and Start has the first route of each function
 // code. For assertions.
-[[maybe_unused]] bool is_sorted(const CO_ROUTES& routes) {
+[[maybe_unused]] bool is_consistent(const CO_ROUTES& routes) {
   unsigned place = 0;
   for (unsigned n = 0; n < end; ++n) {
     if (routes.Start[n] != place) {
@@ -70,7 +70,7 @@ void add(CO_NODE& node, uint32_t identifier, uint16_t owner) {
   routes.Id[place] = identifier;
   routes.Owner[place] = owner;
   shift_starts(routes, identifier, +1);
-  CO_ASSERT(is_sorted(routes));
+  CO_ASSERT(is_consistent(routes));
 }
 
 void remove(CO_NODE& node, uint16_t owner) {
@@ -88,7 +88,7 @@ void remove(CO_NODE& node, uint16_t owner) {
     move(routes, place, place + 1);
   }
   routes.Id[place] = no_identifier;
-  CO_ASSERT(is_sorted(routes));
+  CO_ASSERT(is_consistent(routes));
 }
 
 void change(CO_NODE& node, uint32_t identifier, uint16_t owner) {

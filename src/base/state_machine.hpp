@@ -16,25 +16,25 @@ constexpr uint32_t in(State... states) {
   return ((uint32_t{1} << static_cast<unsigned>(states)) | ...);
 }
 
-// Transition: an event, the states in which it is valid, and the function that serves it.
-template <class Event, class Service>
+// Transition: an event, the states in which it is valid, and its handler.
+template <class Event, class Handler>
 struct Transition {
   uint32_t states;
   Event on;
-  Service run;
+  Handler run;
 };
 
 void two_transitions_have_the_same_event();  // not constexpr: two transitions with the same event do not compile
 
 // State machine with its transitions in an array indexed by event, so that a step costs one lookup.
 template <class State, const auto& transitions>
-class Machine {
+class StateMachine {
   using Event = std::remove_const_t<decltype(transitions[0].on)>;
-  using Service = std::remove_const_t<decltype(transitions[0].run)>;
+  using Handler = std::remove_const_t<decltype(transitions[0].run)>;
 
  public:
-  // otherwise: service of a protocol error
-  constexpr explicit Machine(Service otherwise) : entries_{}, otherwise_(otherwise) {
+  // otherwise: handler of a protocol error
+  constexpr explicit StateMachine(Handler otherwise) : entries_{}, otherwise_(otherwise) {
     for (const auto& transition : transitions) {
       Entry& entry = entries_[static_cast<size_t>(transition.on)];
       if (entry.states != 0) {
@@ -44,8 +44,8 @@ class Machine {
     }
   }
 
-  // Returns the service of an event in a state.
-  constexpr Service operator()(State in, Event on) const {
+  // Returns the handler of an event in a state.
+  constexpr Handler operator()(State in, Event on) const {
     const auto event = static_cast<size_t>(on);
     const bool is_known = event < events && (entries_[event].states >> static_cast<unsigned>(in) & 1U) != 0;
     return is_known ? entries_[event].run : otherwise_;
@@ -63,10 +63,10 @@ class Machine {
 
   struct Entry {
     uint32_t states;
-    Service run;
+    Handler run;
   };
   Entry entries_[events];
-  Service otherwise_;
+  Handler otherwise_;
 };
 
 }  // namespace co

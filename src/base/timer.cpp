@@ -74,9 +74,8 @@ void serve(CO_TMR& t) {
   }
 }
 
-// Returns whether the armed timers are in the order of their expiry after a clock value, and End refers to the last
-// one. For assertions.
-[[maybe_unused]] bool is_sorted(const CO_TMR& t, uint32_t from) {
+// Returns whether the invariants of the armed timers hold. from: clock that no armed timer precedes. For assertions.
+[[maybe_unused]] bool is_consistent(const CO_TMR& t, uint32_t from) {
   uint32_t ticks = 0;
   CO_TMR_MEM* const* link = t.Armed;
   for (; *link != nullptr; link = &(*link)->Next) {
@@ -109,7 +108,7 @@ bool link_by_expiry(CO_TMR& t, CO_TMR_MEM& timer, uint32_t from, uint32_t ticks)
   timer.Next = next;
   timer.At = from + ticks;
   *link = &timer;
-  CO_ASSERT(is_sorted(t, from));
+  CO_ASSERT(is_consistent(t, from));
   return link == t.Armed;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/count.hpp"
 #include "base/error.hpp"
+#include "co_assert.h"
 #include "hal/port.hpp"
 
 namespace co::transmit {
@@ -16,6 +17,15 @@ uint32_t rank(const CO_IF_FRM& frame) {
   return extended ? (id << 1) | 1U : id << 19;
 }
 
+// Returns whether the invariants of the queue hold. For assertions.
+[[maybe_unused]] bool is_consistent(const CO_TX_QUEUE& queue) {
+  bool is_ordered = true;
+  for (unsigned n = queue.Fixed + 1U; n < queue.Num; ++n) {
+    is_ordered = is_ordered && rank(queue.Frame[n - 1]) <= rank(queue.Frame[n]);
+  }
+  return is_ordered && queue.Fixed <= queue.Num && queue.Num <= queue.Len;
+}
+
 // Returns whether the next frame may be sent. In Initialisation only fixed frames are sent: frames from before a reset,
 // then the boot-up message. After CONodeStop() nothing is sent.
 bool may_send_next(const CO_NODE& node) {
@@ -23,6 +33,7 @@ bool may_send_next(const CO_NODE& node) {
 }
 
 void insert(CO_TX_QUEUE& queue, unsigned place, const CO_IF_FRM& frame) {
+  CO_ASSERT(place <= queue.Num && queue.Num < queue.Len);
   for (unsigned n = queue.Num; n > place; --n) {
     queue.Frame[n] = queue.Frame[n - 1];
   }
@@ -52,6 +63,7 @@ bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
     return false;
   }
   insert(node.TxQueue, place_of(node.TxQueue, rank(frame)), frame);
+  CO_ASSERT(is_consistent(node.TxQueue));
   return true;
 }
 
@@ -135,6 +147,7 @@ void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) {
   queue.Fixed = queue.Fixed < queue.Num ? queue.Fixed : queue.Num;
   insert(queue, queue.Fixed, frame);
   ++queue.Fixed;
+  CO_ASSERT(is_consistent(queue));
 }
 
 CO_IF_FRM* find_waiting(CO_NODE& node, uint32_t identifier) {
@@ -171,6 +184,7 @@ void flush(CO_NODE& node) {
   while (is_waiting(node) && may_send_next(node) && offer_to_driver(node, node.TxQueue.Frame[0])) {
     remove_first(node.TxQueue);
   }
+  CO_ASSERT(is_consistent(node.TxQueue));
 }
 
 bool is_full(CO_NODE& node) {
@@ -200,6 +214,7 @@ void withdraw(CO_NODE& node, uint32_t identifier) {
     }
   }
   queue.Num = static_cast<uint16_t>(kept);
+  CO_ASSERT(is_consistent(queue));
 }
 
 void clear(CO_NODE& node) {
@@ -228,6 +243,7 @@ void keep_responses(CO_NODE& node) {
     }
   }
   drop_behind_responses(node);
+  CO_ASSERT(is_consistent(queue));
 }
 
 }  // namespace co::transmit

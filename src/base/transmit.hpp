@@ -31,7 +31,7 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 [[nodiscard]] CO_IF_FRM* find_waiting(CO_NODE& node, uint32_t identifier);
 
 // Sends a frame now or not at all, and at most CO_SDO_BLOCK_PACE frames in a call of CONodeProcess() or COTmrProcess():
-// for frames that can be generated again. Returns false if it was not sent: Service::on_free is called later.
+// for frames that can be generated again. Returns false if it was not sent: Part::free() is called later.
 [[nodiscard]] bool offer(CO_NODE& node, const CO_IF_FRM& frame);
 
 // Returns whether frames are held back only by the limit of offer(): the next call can send them.

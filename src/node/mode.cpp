@@ -3,9 +3,9 @@
 // self-start and resets. [301:7.2.8, 7.3.2]
 #include "node/mode.hpp"
 
+#include "base/access_hook.hpp"
 #include "base/callbacks.hpp"
 #include "base/error.hpp"
-#include "base/access_hook.hpp"
 #include "base/routes.hpp"
 #include "base/transmit.hpp"
 #include "co_assert.h"
@@ -56,7 +56,7 @@ bool is_permitted([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_IF_F
 }
 
 // Executes a command; a reset takes effect after the frame was processed. Unknown commands are ignored.
-void obey(CO_NODE& node, const CO_IF_FRM& frame) {
+void execute_command(CO_NODE& node, const CO_IF_FRM& frame) {
   for (const Command& command : commands) {
     if (static_cast<uint8_t>(command.specifier) != frame.Data[0] || !is_permitted(node, frame)) {
       continue;
@@ -74,7 +74,7 @@ bool starts_itself(CO_NODE& node) {
   return (dict::read_number(node, CO_DEV(0x1F80, 0), sizeof(uint32_t), CO_NMT_STARTUP_STAY) & CO_NMT_STARTUP_STAY) == 0;
 }
 
-// Enters an NMT state: sets the permissions, then calls on_mode of every service.
+// Enters an NMT state: sets the permissions, then informs every part.
 void enter(CO_NODE& node, CO_MODE mode) {
   CO_ASSERT(mode < CO_MODE_NUM);
   node.Nmt.Mode = mode;
@@ -143,7 +143,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
     return false;
   }
   if (wire::addresses(frame, node.NodeId)) {
-    obey(node, frame);
+    execute_command(node, frame);
   }
   return true;
 }
@@ -176,7 +176,7 @@ void run_reset(CO_NODE& node, uint8_t pending) {
 
 namespace co {
 
-// Enters the requested NMT state, if it is another one. A state that CONmtModeChange() or a service requests replaces
+// Enters the requested NMT state, if it is another one. A state that CONmtModeChange() or a part requests replaces
 // the one to be entered, or follows the one just entered. Messages that were deferred before are sent before, because
 // the next state may not permit them. Resets that are requested while the node is started are dropped.
 void event::enter_requested_mode(CO_NODE& node) {

@@ -36,7 +36,11 @@ typedef struct CO_ROUTES_T {    ///< identifier that each service instance consu
 } CO_ROUTES;
 #endif
 
-typedef struct CO_TX_QUEUE_T {  ///< transmit queue, ordered by priority
+// Transmit queue. Invariants (transmit.cpp, is_consistent()):
+// - Num frames of at most Len are queued, the next one first;
+// - the first Fixed of them keep their positions: the boot-up message and those before it;
+// - the others are ordered by their rank in the arbitration on the bus, and by time of the same rank.
+typedef struct CO_TX_QUEUE_T {
   CO_IF_FRM* Frame;
   uint16_t Len;
   uint16_t Num;

@@ -23,7 +23,7 @@ using wire::Lss;
 
 enum class State : uint8_t { waiting, configuration, count };
 
-using Service = void (*)(CO_NODE& node, const CO_IF_FRM& request);
+using Handler = void (*)(CO_NODE& node, const CO_IF_FRM& request);
 
 // Error codes of the services 11h, 13h and 17h.
 constexpr uint32_t not_supported = 1;
@@ -293,7 +293,7 @@ struct Row {
   Lss first;
   uint8_t num;
   uint8_t states;
-  Service run;
+  Handler run;
 };
 
 constexpr Row rows[] = {

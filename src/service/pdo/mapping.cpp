@@ -167,16 +167,16 @@ CO_ERR copy_plain(const CO_OBJ* root, const CO_PDO_MAP& map, uint8_t* data, Dire
                                          : copy_plain<Direction::transmit>(root, map, data);
 }
 
-// An object that is copied by its type, and its place in the frame, in units of CO_PDO_MAP.Length.
-struct Part {
+// An object that is copied by its type, and its position in the frame, in units of CO_PDO_MAP.Length.
+struct Field {
   CO_OBJ& obj;
   unsigned position;
   unsigned length;
 };
 
-bool is_whole(const Part& part) { return (part.position | part.length) % one_byte == 0; }
-unsigned first_byte(const Part& part) { return part.position / one_byte; }
-unsigned bytes_of(const Part& part) { return (part.length + one_byte - 1U) / one_byte; }
+bool is_whole(const Field& field) { return (field.position | field.length) % one_byte == 0; }
+unsigned first_byte(const Field& field) { return field.position / one_byte; }
+unsigned bytes_of(const Field& field) { return (field.length + one_byte - 1U) / one_byte; }
 
 bool get_bit(const uint8_t* data, unsigned bit) { return (data[bit / 8] & (1U << (bit % 8))) != 0; }
 
@@ -188,13 +188,13 @@ void copy_bits(uint8_t* to, unsigned to_bit, const uint8_t* from, unsigned from_
 
 // Calls the Read or Write function of an object. value: the object's bytes in the order of the bus, converted to and
 // from that of the CPU.
-CO_ERR call_type(CO_NODE& node, const Part& part, uint8_t* value, Direction direction) {
-  const uint32_t bytes = bytes_of(part);
-  const uint32_t number = obj::is_stream(part.obj) ? 0 : bytes;
+CO_ERR call_type(CO_NODE& node, const Field& field, uint8_t* value, Direction direction) {
+  const uint32_t bytes = bytes_of(field);
+  const uint32_t number = obj::is_stream(field.obj) ? 0 : bytes;
   if (direction == Direction::receive) {
     wire::swap_host(value, number);
   }
-  const CO_ERR err = obj::access_whole(part.obj, node, function_of(part.obj, direction), value, bytes);
+  const CO_ERR err = obj::access_whole(field.obj, node, function_of(field.obj, direction), value, bytes);
   if (direction == Direction::transmit) {
     wire::swap_host(value, number);
   }
@@ -202,34 +202,34 @@ CO_ERR call_type(CO_NODE& node, const Part& part, uint8_t* value, Direction dire
 }
 
 // Copies an object whose bits do not begin or end at a byte of the frame.
-CO_ERR copy_bits_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
+CO_ERR copy_bits_by_type(CO_NODE& node, CO_IF_FRM& frame, const Field& field, Direction direction) {
   uint8_t value[8] = {};
   if (direction == Direction::receive) {
-    copy_bits(value, 0, frame.Data, part.position, part.length);
-    return call_type(node, part, value, direction);
+    copy_bits(value, 0, frame.Data, field.position, field.length);
+    return call_type(node, field, value, direction);
   }
-  const CO_ERR err = call_type(node, part, value, direction);
-  copy_bits(frame.Data, part.position, value, 0, part.length);
+  const CO_ERR err = call_type(node, field, value, direction);
+  copy_bits(frame.Data, field.position, value, 0, field.length);
   return err;
 }
 
-CO_ERR copy_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
-  if (!is_whole(part)) {
-    return copy_bits_by_type(node, frame, part, direction);
+CO_ERR copy_by_type(CO_NODE& node, CO_IF_FRM& frame, const Field& field, Direction direction) {
+  if (!is_whole(field)) {
+    return copy_bits_by_type(node, frame, field, direction);
   }
   const auto callback = direction == Direction::receive ? CORpdoWriteData : COTpdoReadData;
-  const unsigned bytes = bytes_of(part);
+  const unsigned bytes = bytes_of(field);
   if (callback != nullptr && bytes > longest_number) {
-    callback(&frame, static_cast<uint8_t>(first_byte(part)), static_cast<uint8_t>(bytes), &part.obj);
+    callback(&frame, static_cast<uint8_t>(first_byte(field)), static_cast<uint8_t>(bytes), &field.obj);
     return CO_ERR_NONE;
   }
-  return call_type(node, part, frame.Data + first_byte(part), direction);
+  return call_type(node, field, frame.Data + first_byte(field), direction);
 }
 
 // Copies an object and reports an error.
-CO_ERR copy_or_report(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
-  const CO_ERR err = copy_by_type(node, frame, part, direction);
-  error::report(node, err, part.obj.Key);
+CO_ERR copy_or_report(CO_NODE& node, CO_IF_FRM& frame, const Field& field, Direction direction) {
+  const CO_ERR err = copy_by_type(node, frame, field, direction);
+  error::report(node, err, field.obj.Key);
   return err;
 }
 
@@ -311,8 +311,20 @@ Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, M
   return {CO_ERR_NONE, 0};
 }
 
+// Returns whether the lengths in Step add up to the length of the frame. For assertions.
+[[maybe_unused]] static bool is_consistent(const CO_PDO_MAP& map) {
+  const unsigned total = is_copied(map) ? length_of(map) : map.Length;
+  unsigned sum = 0;
+  for (unsigned place = 0; place < CO_PDO_MAP_N && sum < total; ++place) {
+    const unsigned step = map.Step[place] % by_type;
+    const unsigned copied = ((step & shifted) != 0 ? step - shifted : step) / one_byte;
+    sum += is_copied(map) ? copied : step;
+  }
+  return sum == total && length_of(map) <= sizeof(CO_IF_FRM::Data);
+}
+
 CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
-  CO_ASSERT(exists(map) && length_of(map) <= sizeof frame.Data);
+  CO_ASSERT(exists(map) && is_consistent(map));
   const bool at_once = is_copied(map) && node.Ext->OdLock == nullptr;
   return at_once ? copy_plain(node.Dict.Root, map, frame.Data, direction) : copy_locked(node, map, frame, direction);
 }

@@ -45,7 +45,7 @@ Abort aborted(Step& step) {
   return Abort::none;
 }
 
-using Service = Abort (*)(Step&);
+using Handler = Abort (*)(Step&);
 using wire::Response;
 
 constexpr uint32_t initiated = in(State::download_initiated, State::upload_initiated, State::block_download_initiated,
@@ -54,7 +54,7 @@ constexpr uint32_t in_transfer =
     initiated | in(State::download, State::upload, State::block_download, State::block_download_end,
                    State::block_upload, State::block_upload_end);
 
-constexpr Transition<Response, Service> rows[] = {
+constexpr Transition<Response, Handler> rows[] = {
     {in(State::download_initiated), Response::initiate_download, download_accepted},
     {in(State::download), Response::download_segment, segment_downloaded},
 
@@ -75,7 +75,7 @@ constexpr Transition<Response, Service> rows[] = {
 #endif
 };
 
-constexpr Machine<State, rows> machine(refuse_response);
+constexpr StateMachine<State, rows> state_machine(refuse_response);
 
 // Returns whether the response to an initiate request names another object: it belongs to a previous transfer. Servers
 // that do not know a request abort it with index 0, or with the object of their last transfer.
@@ -162,7 +162,7 @@ CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CS
 [[gnu::noinline]] void process_response(CO_CSDO& client, const CO_IF_FRM& response) {
   CO_IF_FRM request = wire::empty_frame(client.TxId);
   Step step = {client, response, request, false, false, Abort::none};
-  const Abort abort = machine(state_of(client), response_in(client, response))(step);
+  const Abort abort = state_machine(state_of(client), response_in(client, response))(step);
   if (abort != Abort::none) {
     abort_transfer(client, abort);
     return;

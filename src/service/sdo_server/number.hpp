@@ -3,8 +3,8 @@
 // leave no state, so the server answers them at once.
 #pragma once
 
-#include "base/events.hpp"
 #include "base/access_hook.hpp"
+#include "base/events.hpp"
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/number.hpp"
@@ -37,8 +37,8 @@ inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
   return dict::find(*channel.Node, wire::multiplexer(request));
 }
 
-// Answers a request that find_number() has found an object for. Returns false if the state machine of the server has
-// to process it: the object is no plain number, or the access is refused or left to callbacks.
+// Answers a request that find_number() has found an object for. Returns false if the state state_machine of the server
+// has to process it: the object is no plain number, or the access is refused or left to callbacks.
 [[gnu::always_inline]] inline bool serve_number(const CO_SDO& channel, const CO_IF_FRM& request, const CO_OBJ& obj) {
   CO_NODE& node = *channel.Node;
   const bool is_upload = request.Data[0] == wire::initiate_upload_request;

@@ -2,8 +2,8 @@
 #include "service/sdo_server/sdo_server.hpp"
 
 #include "base/events.hpp"
-#include "base/state_machine.hpp"
 #include "base/routes.hpp"
+#include "base/state_machine.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "co_assert.h"
@@ -40,7 +40,7 @@ Abort refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&, CO_O
 constexpr uint32_t outside_block = in(State::idle, State::download, State::upload, State::block_download_end,
                                       State::block_upload_ready, State::block_upload, State::block_upload_end);
 
-constexpr Transition<Request, Service> rows[] = {
+constexpr Transition<Request, Handler> rows[] = {
     {outside_block | in(State::block_download), Request::abort, end_by_client},
 
     {outside_block, Request::initiate_download, initiate_download},
@@ -61,7 +61,7 @@ constexpr Transition<Request, Service> rows[] = {
 #endif
 };
 
-constexpr Machine<State, rows> machine(refuse_command);
+constexpr StateMachine<State, rows> state_machine(refuse_command);
 
 // Returns whether a frame is a segment of a block download. Segments have no command specifier: the state decides.
 bool is_segment(const CO_SDO& channel, const CO_IF_FRM& frame) {
@@ -71,20 +71,30 @@ bool is_segment(const CO_SDO& channel, const CO_IF_FRM& frame) {
          (state == State::block_download || is_last_segment_again(channel, frame));
 }
 
-// Runs a service, and sends its answer or aborts the transfer.
-inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, CO_OBJ* found) {
+// Runs a handler, and sends its answer or aborts the transfer.
+inline void run_handler(CO_SDO& channel, Handler handler, const CO_IF_FRM& request, CO_OBJ* found) {
   CO_NODE& node = *channel.Node;
   CO_ASSERT(state_of(channel) < State::count);
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
   CO_REQUEST own = {channel.Obj, 0};
   node.Request = &own;
-  const Abort abort = service(channel, request, answer, found);
+  const Abort abort = handler(channel, request, answer, found);
   node.Request = nullptr;
   if (abort != Abort::none) {
     abort_transfer(channel, abort);
   } else if (answer.DLC != 0) {
     transmit::send(node, answer);
   }
+}
+
+// Returns whether the invariants of a channel hold between frames. For assertions.
+[[maybe_unused]] bool is_consistent(const CO_SDO& channel) {
+  bool is_valid = channel.State != 0 || channel.Obj == nullptr;
+#if USE_SDO_BLOCK
+  constexpr uint8_t most = 127;
+  is_valid = is_valid && channel.Seq <= most && channel.AckSeq <= most && channel.Fill <= CO_SDO_BUF_BYTE;
+#endif
+  return is_valid;
 }
 
 // Not inlined: relative to a pointer to the channel, all members are reached by short loads.
@@ -109,7 +119,7 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, 
     channel.Idle = 0;
   }
   const Request request = in_block ? Request::block_segment : wire::request_of(frame.Data[0]);
-  perform(channel, machine(state_of(channel), request), frame, found);
+  run_handler(channel, state_machine(state_of(channel), request), frame, found);
   return true;
 }
 
@@ -170,8 +180,10 @@ void configure(CO_NODE& node) {
 }
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
-  CO_ASSERT(number < CO_SSDO_N && node.Sdo[number].Node == &node);
-  return serve(node.Sdo[number], frame);
+  CO_ASSERT(number < CO_SSDO_N && node.Sdo[number].Node == &node && is_consistent(node.Sdo[number]));
+  const bool is_valid = serve(node.Sdo[number], frame);
+  CO_ASSERT(is_consistent(node.Sdo[number]));
+  return is_valid;
 }
 
 bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
@@ -180,7 +192,7 @@ bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
   CO_SDO& channel = node.Sdo[number];
   if (state_of(channel) == State::block_upload) {
     const uint8_t before = channel.Seq;
-    perform(channel, send_next, wire::empty_frame(wire::no_frame), nullptr);
+    run_handler(channel, send_next, wire::empty_frame(wire::no_frame), nullptr);
     const bool sent = channel.Seq != before;
     channel.Idle = sent ? 0 : channel.Idle;
     return sent;

@@ -87,7 +87,7 @@ inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n)
 
 // Calls the type's End function, also after the request or without one (time-out). Returns the error of End as abort
 // code, if it is the end of a complete download.
-Abort tell_end(const CO_SDO& channel, CO_OBJ& obj, Abort code) {
+Abort call_end(const CO_SDO& channel, CO_OBJ& obj, Abort code) {
   CO_NODE& node = *channel.Node;
   const access::Request request(node, &obj);
   const CO_ERR err = obj::end(obj, node, direction_of(channel), code);
@@ -102,7 +102,7 @@ Abort close(CO_SDO& channel, Abort code) {
   const bool has_end = access::is_begun(channel) && obj != nullptr;
   set_state(channel, State::idle);
   channel.Obj = nullptr;
-  return has_end ? tell_end(channel, *obj, code) : Abort::none;
+  return has_end ? call_end(channel, *obj, code) : Abort::none;
 }
 
 void abort_transfer(CO_SDO& channel, Abort code) {
