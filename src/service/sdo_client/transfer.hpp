@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// State and helper functions of a client transfer, shared by the services of the state state_machine.
+// State and helper functions of a client transfer, shared by the handlers of the state machine.
 #pragma once
 
 #include "co_csdo.h"
@@ -41,7 +41,7 @@ enum Flag : uint8_t {
   last_sent = 0x20,  // block download: the last segment of the transfer was sent
 };
 
-// Context of a service of the state state_machine: the client, the response, and the next request.
+// Context of a handler of the state machine: the client, the response, and the next request.
 struct Step {
   CO_CSDO& client;
   const CO_IF_FRM& response;
@@ -60,7 +60,7 @@ inline void clear(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8
 // Returns whether a download fits into the first request. One without data does not: it needs a segment.
 [[nodiscard]] inline bool is_expedited(const CO_CSDO& client) { return client.Size - 1 < wire::expedited_bytes; }
 
-// Services of the state state_machine. They return the abort code with which the client ends the transfer.
+// Handlers of the state machine. They return the abort code with which the client ends the transfer.
 // [301:7.2.4.3]
 [[nodiscard]] Abort download_accepted(Step& step);
 [[nodiscard]] Abort segment_downloaded(Step& step);

@@ -37,7 +37,7 @@ inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
   return dict::find(*channel.Node, wire::multiplexer(request));
 }
 
-// Answers a request that find_number() has found an object for. Returns false if the state state_machine of the server
+// Answers a request that find_number() has found an object for. Returns false if the state machine of the server
 // has to process it: the object is no plain number, or the access is refused or left to callbacks.
 [[gnu::always_inline]] inline bool serve_number(const CO_SDO& channel, const CO_IF_FRM& request, const CO_OBJ& obj) {
   CO_NODE& node = *channel.Node;

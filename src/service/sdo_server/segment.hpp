@@ -84,7 +84,7 @@ namespace co::sdo_server {
 inline bool store_straight(const CO_SDO&, const CO_IF_FRM&) { return false; }
 #endif
 
-// Processes a segment of an open transfer. Returns false, and changes nothing, if the state state_machine of the server
+// Processes a segment of an open transfer. Returns false, and changes nothing, if the state machine of the server
 // has to process the frame.
 [[gnu::always_inline]] inline bool serve_segment(CO_SDO& channel, const CO_IF_FRM& frame) {
   const State state = state_of(channel);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// State and helper functions of a server transfer, shared by the services of the state state_machine.
+// State and helper functions of a server transfer, shared by the handlers of the state machine.
 #pragma once
 
 #include "co_assert.h"
@@ -52,7 +52,7 @@ static_assert(toggled == wire::toggle_bit);
 // Suppresses the response. Setting the DLC again enables it.
 inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }
 
-// Services of the state state_machine. They process a request, fill the response, and return an abort code.
+// Handlers of the state machine. They process a request, fill the response, and return an abort code.
 // [301:7.2.4.3] found: object of the request, if it was found before, otherwise null
 using Handler = Abort (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
 [[nodiscard]] Abort initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
