@@ -106,7 +106,8 @@ CO_ERR COLssStore(uint32_t baud, uint8_t nodeId);
 /// \retval CO_ERR_PARA_STORE   the memory has no space at \a offset
 /// \retval CO_ERR_IF_NVM_READ  the stored record is damaged or cannot be read
 /// \retval CO_ERR_BAD_ARG      an argument is null
-CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uint8_t* nodeId) CO_NEEDS(LSS_STORAGE);
+CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uint8_t* nodeId) CO_NEEDS(USE_LSS)
+    CO_NEEDS(USE_PARA);
 
 /// Stores node-ID and bit rate, unless they are stored already. The memory is not checked for an overlap with parameter
 /// groups.
@@ -116,7 +117,8 @@ CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uin
 /// \retval CO_ERR_IF_NVM_WRITE  the memory does not hold the values; the old ones stay
 /// \retval CO_ERR_OBJ_STATE     the budget of stores is used up (CO_PARA_BUDGET); only when called in COLssStore()
 /// \retval CO_ERR_BAD_ARG       \a node is null
-CO_ERR COLssNvmStore(struct CO_NODE_T* node, uint32_t offset, uint32_t baud, uint8_t nodeId) CO_NEEDS(LSS_STORAGE);
+CO_ERR COLssNvmStore(struct CO_NODE_T* node, uint32_t offset, uint32_t baud, uint8_t nodeId) CO_NEEDS(USE_LSS)
+    CO_NEEDS(USE_PARA);
 /// \}
 
 #ifdef __cplusplus

@@ -430,14 +430,14 @@ void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t f
 /// Returns the sub-index of 1010h of the group with this name, 1…127; 0: there is none. Reads Ident of all groups of
 /// 1010h as a string: an application that calls OD_findStorageGroup() or OD_getStorageName() must set the Ident of each
 /// group to a NUL-terminated string or null.
-uint8_t OD_findStorageGroup(const OD_t* od, const char* name) CO_NEEDS(OD_STORAGE);
+uint8_t OD_findStorageGroup(const OD_t* od, const char* name) CO_NEEDS(USE_OD) CO_NEEDS(USE_PARA);
 
 /// Returns the sub-index of 1010h of the group that contains the variable's original memory; 0: the variable is not
 /// stored.
-uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(OD_STORAGE);
+uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(USE_OD) CO_NEEDS(USE_PARA);
 
 /// Returns the name of a group; null: there is no such group, or it has no name.
-const char* OD_getStorageName(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
+const char* OD_getStorageName(const OD_t* od, uint8_t group) CO_NEEDS(USE_OD) CO_NEEDS(USE_PARA);
 
 /// Stores the group, like "save" of the network. If 1010h has more than one sub-index, group 1 stands for all groups.
 /// \retval ODR_OK              the group is stored
@@ -445,7 +445,7 @@ const char* OD_getStorageName(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE
 /// \retval ODR_HW              the memory does not hold the values; the old ones stay
 /// \retval ODR_DATA_TRANSF     the group is not stored on command
 /// \retval ODR_OD_MISSING      the node does not use this dictionary
-ODR_t OD_storeGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
+ODR_t OD_storeGroup(const OD_t* od, uint8_t group) CO_NEEDS(USE_OD) CO_NEEDS(USE_PARA);
 /// Restores the default values of the group at the reset of its type, like "load" of the network. Group 1 is that of
 /// OD_storeGroup().
 /// \retval ODR_OK              the group will be restored
@@ -453,7 +453,7 @@ ODR_t OD_storeGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 /// \retval ODR_HW              the memory could not be changed
 /// \retval ODR_DATA_TRANSF     the group is not restored on command
 /// \retval ODR_OD_MISSING      the node does not use this dictionary
-ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
+ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) CO_NEEDS(USE_OD) CO_NEEDS(USE_PARA);
 /// \}
 
 /// \name Locks

@@ -38,6 +38,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_nmt.h"
 #include "co_number.h"
 #include "co_obj.h"
+#include "lexican/detail/needs.h"
 #include "lexican/rules.hpp"
 #if USE_OD
 #include "co_od.h"
@@ -130,15 +131,9 @@ struct Type {
 };
 
 /// \cond internal
-// An element of types for a row of CO_OBJECTS(). The type is null if the configuration excludes it: CO_NEEDS_… is then
-// an attribute, so that CO_PROBE is not expanded and adds no argument in front of the type.
-#define CO_NEEDS_always
-#define CO_PROBE() ,
-#define CO_THIRD(first, second, third, ...) third
-#define CO_THIRD_OF(...) CO_THIRD(__VA_ARGS__, nullptr, 0)
-#define CO_TYPE_OR_NULL(...) CO_THIRD_OF(__VA_ARGS__)
+// An element of types for a row of CO_OBJECTS(). The type is null if the configuration excludes it.
 #define CO_OBJECT_TYPE(rule, type, functions, first, last, first_sub, last_sub, bytes, flags, value, use, setting) \
-  {CO_TYPE_OR_NULL(CO_PROBE CO_NEEDS_##setting(), &functions), rules::rule, Value::value, bytes},
+  {CO_IF_ZERO(setting, nullptr, &functions), rules::rule, Value::value, bytes},
 /// \endcond
 
 /// Object types of the library. A type whose rules or values depend on the sub-index has several elements.
@@ -171,11 +166,6 @@ inline constexpr Type types[] = {
 #endif
 };
 #undef CO_OBJECT_TYPE
-#undef CO_TYPE_OR_NULL
-#undef CO_THIRD_OF
-#undef CO_THIRD
-#undef CO_PROBE
-#undef CO_NEEDS_always
 
 /// Returns whether two addresses are known to be equal. If the compiler has to consider symbols at address 0
 /// (-fno-delete-null-pointer-checks, sanitizers of gcc), it can only prove that an address is equal to itself. That is

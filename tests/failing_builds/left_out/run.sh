@@ -27,6 +27,6 @@ said=$(source_text | LC_ALL=C "$@" $on -fsyntax-only - 2>&1) || fail "does not c
 
 if said=$(source_text | LC_ALL=C "$@" $off -fsyntax-only - 2>&1); then fail "compiles with $off, but must not"; fi
 for name in $names; do
-  printf '%s\n' "$said" | grep -Eq "error: .*\\b$name\\b.* is unavailable: needs $setting in co_cfg.h" ||
+  printf '%s\n' "$said" | grep -Eq "error: .*\\b$name\\b.* is unavailable: needs $setting above 0 in co_cfg.h" ||
     fail "no message that $name needs $setting"
 done
