@@ -15,9 +15,9 @@ from functools import lru_cache
 from itertools import groupby
 from pathlib import Path
 
-# The number of the configuration (include/lexican/detail/configuration.h): headers only refer to it, in the names of
-# functions of node.cpp.
-NUMBER = re.compile(r'"_of_a_library_with_the_same_co_cfg_values_"[ "0-9]*')
+# The values of the settings (include/lexican/detail/configuration.h): headers only refer to them, in the names of
+# functions of src/node.
+VALUES = re.compile(r'"_SSDO"[ "_0-9A-Za-z]*')
 
 
 @lru_cache(None)
@@ -66,7 +66,7 @@ def main():
     for text in (old, new):
         for file in text:
             if file and file.suffix != ".cpp":
-                text[file] = NUMBER.sub("", text[file])
+                text[file] = VALUES.sub("", text[file])
     changed = {file for file in old.keys() | new.keys() if old.get(file) != new.get(file)}
     for source in sources:
         file = root / "src" / source

@@ -259,9 +259,10 @@ typedef struct CO_NODE_T {
 /// The caller owns \a node and all memory that \a spec refers to; they must live as long as the node. \a spec itself
 /// may be destroyed after the call. A null argument calls CONodeFatalError().
 ///
-/// The linker error "undefined reference to CONodeInit_of_a_library_with_the_same_co_cfg_values_…" means that the
-/// library was compiled with another configuration than the program (lexican/detail/configuration.h): compile both with
-/// the same definitions, preset and co_cfg.h.
+/// The linker error "undefined reference to CONodeInit_SSDO1_RPDO16…" means that the library was compiled with another
+/// configuration than the program, whose settings and values the symbol contains; "nm liblexican.a | grep CONodeInit_"
+/// prints those of the library (lexican/detail/configuration.h). Compile both with the same definitions, preset and
+/// co_cfg.h.
 void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) CO_CONFIGURED("CONodeInit");
 
 /// Like CONodeInit(), with the settings of \a ext. CONodeInit() is CONodeInitEx() with a null \a ext.

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Checks the configuration of a program against that of the library that it is linked with:
 #   configuration.sh link PROJECT LIBRARY COMPILER...      a program with another configuration is not linked
-#   configuration.sh settings PROJECT COMPILER...          each setting of co_cfg.h changes the configuration's number
+#   configuration.sh settings PROJECT COMPILER...          each setting of co_cfg.h changes the linker symbol
 #   configuration.sh presets PROJECT COMPILER...           a definition has priority over each setting of each preset
 # COMPILER... includes its options: the language and, for link, the configuration of LIBRARY.
 set -u
@@ -36,21 +36,22 @@ check_link() {
       # shellcheck disable=SC2086
       if build $only $other; then
         fail "$function is linked with $other"
-      elif ! grep -q "${function}_of_a_library_with_the_same_co_cfg_values_[0-3]*" "$directory/said"; then
+      elif ! grep -q "${function}_SSDO[0-9]*_RPDO" "$directory/said"; then
         fail "$other is refused, but not by name:"
         cat "$directory/said" >&2
       fi
     done
+    build $only "-DCO_HBCONS_N=(1 + 2)" || { fail "an expression is not accepted:"; cat "$directory/said" >&2; }
   done
 }
 
 # Prints the names of the settings in a header. Programs and libraries may differ in USE_ASSERT.
 settings_in() { sed -nE 's/^#ifndef ((CO|USE)_[A-Z0-9_]+)$/\1/p' "$1" | grep -vE '_H_$|^CO_CFG_PRESET$|^USE_ASSERT$'; }
 
-# number_with DEFINITION...: prints the configuration's number; nothing if the configuration is invalid
-number_with() {
-  printf '#include "lexican/detail/configuration.h"\nnumber CO_CONFIGURED_SYMBOL("of")\n' |
-    "$@" "${includes[@]}" -E -P - 2>/dev/null | sed -n 's/^number //p' | tr -d '" '
+# symbol_with COMPILER...: prints a linker symbol with the configuration; nothing if the configuration is invalid
+symbol_with() {
+  printf '#include "lexican/detail/configuration.h"\nsymbol CO_CONFIGURED_SYMBOL("of")\n' |
+    "$@" "${includes[@]}" -E -P - 2>/dev/null | sed -n 's/^symbol //p' | tr -d '" '
 }
 
 value_of() {  # SETTING COMPILER...
@@ -58,18 +59,18 @@ value_of() {  # SETTING COMPILER...
 }
 
 check_settings() {
-  local setting value other number all
-  all=$(number_with "$@")
-  [[ $all =~ ^of_.*_[0-3]{12}$ ]] || fail "no number: $all"
+  local setting value other symbol all
+  all=$(symbol_with "$@")
+  [[ $all =~ ^of(_[A-Z]+[0-9]+)+$ ]] || fail "no symbol: $all"
   for setting in $(settings_in "$project/config/co_cfg.h"); do
     value=$(value_of "$setting" "$@")
     for other in $((value + 1)) $((value - 1)) $((value + 8)); do
-      number=$(number_with "$@" "-D$setting=$other")
-      [ -z "$number" ] || break
+      symbol=$(symbol_with "$@" "-D$setting=$other")
+      [ -z "$symbol" ] || break
     done
-    [ -n "$number" ] || fail "$setting: no other value is possible"
-    ! grep -qxF -- "$number" <<<"$all" || fail "$setting=$other gives a number that there was: $number"
-    all+=$'\n'$number
+    [ -n "$symbol" ] || fail "$setting: no other value is possible"
+    ! grep -qxF -- "$symbol" <<<"$all" || fail "$setting=$other gives a symbol that there was: $symbol"
+    all+=$'\n'$symbol
   done
   [ "$(wc -l <<<"$all")" -gt 35 ] || fail "settings are missing"
 }

@@ -73,7 +73,7 @@ def opening(line, place):
 
 
 # A symbol that is given by its name (*), and the configuration in those of CONodeInit() and CONodeInitEx().
-DECORATION = re.compile(r"^\*|_of_a_library_with_the_same_co_cfg_values_\d+$")
+DECORATION = re.compile(r"^\*|_SSDO\w+$")
 
 
 class Program:

@@ -2,162 +2,52 @@
 /// \file lexican/detail/configuration.h
 /// Prevents linking a program with a library that was compiled with other values of co_cfg.h: structures would differ
 /// in size, and CONodeInit() would write beyond the program's CO_NODE. In a program that includes co_core.h the linker
-/// symbols of CONodeInit(), CONodeInitEx() and CONodeInitCtx() end in a number, which the preprocessor computes from
-/// all settings. The library defines only the symbols of its configuration, so the linker reports:
+/// symbols of CONodeInit(), CONodeInitEx() and CONodeInitCtx() end in the values of all settings. The library defines
+/// only the symbols of its configuration, so the linker reports the program's configuration:
 ///
-///     undefined reference to `CONodeInit_of_a_library_with_the_same_co_cfg_values_013213220321'
+///     undefined reference to `CONodeInit_SSDO1_RPDO16_TPDO4_USECSDO1_CSDO1_SYNC1…'
+///
+/// This prints the library's: nm liblexican.a | grep CONodeInit_
 ///
 /// Remedy: compile library and program with the same definitions (-D), the same preset and the same co_cfg.h. The check
 /// adds no code and no data. Objects that use the plain symbol CONodeInit, without this header, are linked unchecked.
-/// Only for ELF; on other targets nothing is checked.
+/// Only for ELF, and only if the value of each setting is a plain number: where one is an expression such as (4 + 2),
+/// which no symbol can contain, nothing is checked; 4 and 4u are different.
 #ifndef LEXICAN_DETAIL_CONFIGURATION_H_
 #define LEXICAN_DETAIL_CONFIGURATION_H_
 
-#include "co_cfg.h"
+#include "lexican/detail/needs.h"
 
 /// \cond internal
-// Each setting of co_cfg.h; tests/compat/configuration.sh names one that is missing. Sums and products of the
-// preprocessor have 64 bits.
-#define CO_CONFIGURATION_MIX(hash, a, b, c, d) \
-  (((((hash)*1000003u + (a)) * 1000003u + (b)) * 1000003u + (c)) * 1000003u + (d))
-#define CO_CONFIGURATION_1 CO_CONFIGURATION_MIX(1u, CO_SSDO_N, USE_DICT_CHECK, USE_FAST_PATHS, USE_OBJ_EX)
-#define CO_CONFIGURATION_2 CO_CONFIGURATION_MIX(CO_CONFIGURATION_1, USE_OD, USE_CSDO, CO_CSDO_N, USE_SDO_BLOCK)
-#define CO_CONFIGURATION_3 CO_CONFIGURATION_MIX(CO_CONFIGURATION_2, CO_CSDO_BLOCK, CO_SDO_TIMEOUT, CO_RPDO_N, CO_TPDO_N)
-#define CO_CONFIGURATION_4 CO_CONFIGURATION_MIX(CO_CONFIGURATION_3, USE_PDO_BITS, USE_PDO_RTR, USE_MPDO, CO_MPDO_SCAN_N)
-#define CO_CONFIGURATION_5 \
-  CO_CONFIGURATION_MIX(CO_CONFIGURATION_4, CO_MPDO_DISPATCH_N, CO_TPDO_ON_START, CO_RESTRICTED_IDS, USE_SYNC)
-#define CO_CONFIGURATION_6 CO_CONFIGURATION_MIX(CO_CONFIGURATION_5, USE_TIME, USE_EMCY, CO_EMCY_N, CO_EMCY_QUEUE_N)
-#define CO_CONFIGURATION_7 \
-  CO_CONFIGURATION_MIX(CO_CONFIGURATION_6, CO_EMCY_CONS_N, CO_HBCONS_N, USE_GUARDING, USE_NMT_MASTER)
-#define CO_CONFIGURATION_8 CO_CONFIGURATION_MIX(CO_CONFIGURATION_7, USE_LED, USE_LSS, USE_LSS_MASTER, USE_PARA)
-#define CO_CONFIGURATION_9 \
-  CO_CONFIGURATION_MIX(CO_CONFIGURATION_8, CO_PARA_PERIOD, CO_STORE_BUFFER, USE_REAL_TIME, CO_TX_QUEUE_N)
-#define CO_CONFIGURATION_10 \
-  CO_CONFIGURATION_MIX(CO_CONFIGURATION_9, CO_SDO_BUF_SEG, CO_SDO_BLOCK_PACE, CO_LSS_IN_OPERATIONAL, USE_ACCESS_HOOK)
-#define CO_CONFIGURATION_11 \
-  CO_CONFIGURATION_MIX(CO_CONFIGURATION_10, CO_PARA_BUDGET, CO_SYNC_PERIOD_MIN, USE_CALLBACKS, USE_CSDO_BLOCK)
-#define CO_CONFIGURATION_12 CO_CONFIGURATION_MIX(CO_CONFIGURATION_11, USE_CSDO_OWN, USE_GFC, CO_SRDO_N, CO_SRDO_GAP)
-#define CO_CONFIGURATION_13 CO_CONFIGURATION_MIX(CO_CONFIGURATION_12, USE_EMCY_QUEUE, USE_RECORDER, 0, 0)
+// X(name in the symbol, setting) for each setting of co_cfg.h; tests/compat/configuration.sh names one that is missing.
+// clang-format off
+#define CO_CONFIGURATION(X) \
+  X(SSDO, CO_SSDO_N) X(RPDO, CO_RPDO_N) X(TPDO, CO_TPDO_N) X(USECSDO, USE_CSDO) X(CSDO, CO_CSDO_N) X(SYNC, USE_SYNC) \
+  X(USEEMCY, USE_EMCY) X(EMCY, CO_EMCY_N) X(USEEMCYQUEUE, USE_EMCY_QUEUE) X(EMCYQUEUE, CO_EMCY_QUEUE_N) \
+  X(EMCYCONS, CO_EMCY_CONS_N) X(HBCONS, CO_HBCONS_N) X(GUARDING, USE_GUARDING) X(TIME, USE_TIME) X(GFC, USE_GFC) \
+  X(SRDO, CO_SRDO_N) X(SRDOGAP, CO_SRDO_GAP) X(LSS, USE_LSS) X(LSSOPERATIONAL, CO_LSS_IN_OPERATIONAL) \
+  X(LSSMASTER, USE_LSS_MASTER) X(NMTMASTER, USE_NMT_MASTER) X(LED, USE_LED) X(PARA, USE_PARA) \
+  X(PARAPERIOD, CO_PARA_PERIOD) X(PARABUDGET, CO_PARA_BUDGET) X(STOREBUFFER, CO_STORE_BUFFER) X(OD, USE_OD) \
+  X(SDOBLOCK, USE_SDO_BLOCK) X(SDOBLOCKPACE, CO_SDO_BLOCK_PACE) X(SDOBUF, CO_SDO_BUF_SEG) \
+  X(SDOTIMEOUT, CO_SDO_TIMEOUT) X(USECSDOBLOCK, USE_CSDO_BLOCK) X(CSDOBLOCK, CO_CSDO_BLOCK) X(CSDOOWN, USE_CSDO_OWN) \
+  X(PDOBITS, USE_PDO_BITS) X(PDORTR, USE_PDO_RTR) X(TPDOSTART, CO_TPDO_ON_START) X(MPDO, USE_MPDO) \
+  X(MPDOSCAN, CO_MPDO_SCAN_N) X(MPDODISPATCH, CO_MPDO_DISPATCH_N) X(SYNCMIN, CO_SYNC_PERIOD_MIN) \
+  X(RESTRICTEDIDS, CO_RESTRICTED_IDS) X(TXQUEUE, CO_TX_QUEUE_N) X(CALLBACKS, USE_CALLBACKS) \
+  X(ACCESSHOOK, USE_ACCESS_HOOK) X(OBJEX, USE_OBJ_EX) X(DICTCHECK, USE_DICT_CHECK) X(FASTPATHS, USE_FAST_PATHS) \
+  X(REALTIME, USE_REAL_TIME) X(RECORDER, USE_RECORDER)
+// clang-format on
 
-// Digits of base 4: the upper 24 bits of a product with the golden ratio.
-#define CO_CONFIGURATION_DIGIT(place) (((CO_CONFIGURATION_13 * 0x9E3779B97F4A7C15u) >> (40 + 2 * (place))) % 4)
-#if CO_CONFIGURATION_DIGIT(0) == 0
-#define CO_CONFIGURATION_D0 "0"
-#elif CO_CONFIGURATION_DIGIT(0) == 1
-#define CO_CONFIGURATION_D0 "1"
-#elif CO_CONFIGURATION_DIGIT(0) == 2
-#define CO_CONFIGURATION_D0 "2"
-#else
-#define CO_CONFIGURATION_D0 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(1) == 0
-#define CO_CONFIGURATION_D1 "0"
-#elif CO_CONFIGURATION_DIGIT(1) == 1
-#define CO_CONFIGURATION_D1 "1"
-#elif CO_CONFIGURATION_DIGIT(1) == 2
-#define CO_CONFIGURATION_D1 "2"
-#else
-#define CO_CONFIGURATION_D1 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(2) == 0
-#define CO_CONFIGURATION_D2 "0"
-#elif CO_CONFIGURATION_DIGIT(2) == 1
-#define CO_CONFIGURATION_D2 "1"
-#elif CO_CONFIGURATION_DIGIT(2) == 2
-#define CO_CONFIGURATION_D2 "2"
-#else
-#define CO_CONFIGURATION_D2 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(3) == 0
-#define CO_CONFIGURATION_D3 "0"
-#elif CO_CONFIGURATION_DIGIT(3) == 1
-#define CO_CONFIGURATION_D3 "1"
-#elif CO_CONFIGURATION_DIGIT(3) == 2
-#define CO_CONFIGURATION_D3 "2"
-#else
-#define CO_CONFIGURATION_D3 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(4) == 0
-#define CO_CONFIGURATION_D4 "0"
-#elif CO_CONFIGURATION_DIGIT(4) == 1
-#define CO_CONFIGURATION_D4 "1"
-#elif CO_CONFIGURATION_DIGIT(4) == 2
-#define CO_CONFIGURATION_D4 "2"
-#else
-#define CO_CONFIGURATION_D4 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(5) == 0
-#define CO_CONFIGURATION_D5 "0"
-#elif CO_CONFIGURATION_DIGIT(5) == 1
-#define CO_CONFIGURATION_D5 "1"
-#elif CO_CONFIGURATION_DIGIT(5) == 2
-#define CO_CONFIGURATION_D5 "2"
-#else
-#define CO_CONFIGURATION_D5 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(6) == 0
-#define CO_CONFIGURATION_D6 "0"
-#elif CO_CONFIGURATION_DIGIT(6) == 1
-#define CO_CONFIGURATION_D6 "1"
-#elif CO_CONFIGURATION_DIGIT(6) == 2
-#define CO_CONFIGURATION_D6 "2"
-#else
-#define CO_CONFIGURATION_D6 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(7) == 0
-#define CO_CONFIGURATION_D7 "0"
-#elif CO_CONFIGURATION_DIGIT(7) == 1
-#define CO_CONFIGURATION_D7 "1"
-#elif CO_CONFIGURATION_DIGIT(7) == 2
-#define CO_CONFIGURATION_D7 "2"
-#else
-#define CO_CONFIGURATION_D7 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(8) == 0
-#define CO_CONFIGURATION_D8 "0"
-#elif CO_CONFIGURATION_DIGIT(8) == 1
-#define CO_CONFIGURATION_D8 "1"
-#elif CO_CONFIGURATION_DIGIT(8) == 2
-#define CO_CONFIGURATION_D8 "2"
-#else
-#define CO_CONFIGURATION_D8 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(9) == 0
-#define CO_CONFIGURATION_D9 "0"
-#elif CO_CONFIGURATION_DIGIT(9) == 1
-#define CO_CONFIGURATION_D9 "1"
-#elif CO_CONFIGURATION_DIGIT(9) == 2
-#define CO_CONFIGURATION_D9 "2"
-#else
-#define CO_CONFIGURATION_D9 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(10) == 0
-#define CO_CONFIGURATION_D10 "0"
-#elif CO_CONFIGURATION_DIGIT(10) == 1
-#define CO_CONFIGURATION_D10 "1"
-#elif CO_CONFIGURATION_DIGIT(10) == 2
-#define CO_CONFIGURATION_D10 "2"
-#else
-#define CO_CONFIGURATION_D10 "3"
-#endif
-#if CO_CONFIGURATION_DIGIT(11) == 0
-#define CO_CONFIGURATION_D11 "0"
-#elif CO_CONFIGURATION_DIGIT(11) == 1
-#define CO_CONFIGURATION_D11 "1"
-#elif CO_CONFIGURATION_DIGIT(11) == 2
-#define CO_CONFIGURATION_D11 "2"
-#else
-#define CO_CONFIGURATION_D11 "3"
-#endif
+// Whether a value is a number without operators: not 4 + 2, because 4 + 2 * 9 is not (4 + 2) * 9; not 2 * 3, because
+// 999999 / 2 * 3 is not 999999 / (2 * 3); and not (4 + 2).
+#define CO_IS_PLAIN(name, setting)                                                           \
+  &&CO_SECOND_OF(CO_IN_PARENTHESES setting, 1, ~) && (setting * 9 + 5) == (setting)*9 + 5 && \
+      ((setting) == 0 || 999999 / setting == 999999 / (setting))
+#define CO_IN_PARENTHESES(...) ~, 0
 
-#if defined(__ELF__) && defined(__GNUC__)
-#define CO_CONFIGURED_SYMBOL(function)                                                                                \
-  function "_of_a_library_with_the_same_co_cfg_values_" CO_CONFIGURATION_D11 CO_CONFIGURATION_D10 CO_CONFIGURATION_D9 \
-      CO_CONFIGURATION_D8 CO_CONFIGURATION_D7 CO_CONFIGURATION_D6 CO_CONFIGURATION_D5 CO_CONFIGURATION_D4             \
-          CO_CONFIGURATION_D3 CO_CONFIGURATION_D2 CO_CONFIGURATION_D1 CO_CONFIGURATION_D0
-#endif
-
-#ifdef CO_CONFIGURED_SYMBOL
+#if defined(__ELF__) && defined(__GNUC__) && 1 CO_CONFIGURATION(CO_IS_PLAIN)
+#define CO_TEXT_OF(value) #value
+#define CO_NAME_AND_VALUE(name, setting) "_" #name CO_TEXT_OF(setting)
+#define CO_CONFIGURED_SYMBOL(function) function CO_CONFIGURATION(CO_NAME_AND_VALUE)
 #define CO_CONFIGURED(function) __asm__(CO_CONFIGURED_SYMBOL(function))
 #else
 #define CO_CONFIGURED(function)
