@@ -246,20 +246,17 @@
 #error "CO_EMCY_N: 1...256 errors"
 #endif
 
-/// Queue of EMCY messages, with the inhibit time (1015h): 0 or 1. With 0, messages are sent at once, 1015h has no
-/// effect, and a message that finds the transmit queue full is lost. 0 saves 380 bytes of flash (Cortex-M0+, -Os) and
-/// 56 bytes of RAM.
-#ifndef USE_EMCY_QUEUE
-#define USE_EMCY_QUEUE 1
-#endif
-
-/// Length of the queue of EMCY messages that wait for the inhibit time (1015h) or for the transmit queue: 1…255. Each
-/// message costs 8 bytes of RAM.
+/// Length of the queue of EMCY messages that wait for the inhibit time (1015h) or for the transmit queue: 0…255. With 0,
+/// messages are sent at once, 1015h has no effect, and a message that finds the transmit queue full is lost. 0 saves 380
+/// bytes of flash (Cortex-M0+, -Os); each message costs 8 bytes of RAM.
 #ifndef CO_EMCY_QUEUE_N
 #define CO_EMCY_QUEUE_N 4
 #endif
-#if CO_EMCY_QUEUE_N < 1 || CO_EMCY_QUEUE_N > 255
-#error "CO_EMCY_QUEUE_N: 1...255 messages"
+#if CO_EMCY_QUEUE_N < 0 || CO_EMCY_QUEUE_N > 255
+#error "CO_EMCY_QUEUE_N: 0...255 messages"
+#endif
+#ifdef USE_EMCY_QUEUE
+#error "USE_EMCY_QUEUE was replaced: CO_EMCY_QUEUE_N 0 omits the queue of EMCY messages"
 #endif
 
 /// EMCY consumer: the highest sub-index (node-ID) of 1028h, 0…127. Each costs 6 bytes of RAM.

@@ -21,8 +21,8 @@
 /// Inhibit time: 1015h (a plain CO_TUNSIGNED16, x 100 µs) is read at each message, so a new value applies from the next
 /// message on. Messages that wait for the inhibit time, or for the transmit queue, are stored in a queue of
 /// CO_EMCY_QUEUE_N messages. If it is full, a new message replaces the newest one in it, which is counted as dropped:
-/// the first messages are kept, and the last message always reports the present state. USE_EMCY_QUEUE 0 omits queue and
-/// inhibit time.
+/// the first messages are kept, and the last message always reports the present state. CO_EMCY_QUEUE_N 0 omits queue
+/// and inhibit time.
 ///
 /// Messages are sent where the API call that has caused them ends, before event-driven TPDOs. COEmcySet(), COEmcyClr()
 /// and COEmcyReset() send them at once.
@@ -161,7 +161,7 @@ typedef struct CO_EMCY_T {
   uint8_t Err[CO_EMCY_STORAGE];              ///< errors of the application: bit 0 of byte 0 is identifier 0
   uint16_t Fault[CO_EMCY_FAULT_N];           ///< number of unresolved occurrences of each error of the stack
   CO_TMR_MEM Hold[CO_EMCY_HOLD_N];           ///< times until 8110h and 8150h are resolved
-#if USE_EMCY_QUEUE
+#if CO_EMCY_QUEUE_N > 0
   CO_TMR_MEM Tmr;                      ///< inhibit time
   CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];  ///< messages that wait for the inhibit time or the transmit queue
 #endif

@@ -45,8 +45,8 @@
 #ifndef USE_PARA
 #define USE_PARA 0
 #endif
-#ifndef USE_EMCY_QUEUE
-#define USE_EMCY_QUEUE 0
+#ifndef CO_EMCY_QUEUE_N
+#define CO_EMCY_QUEUE_N 0
 #endif
 #ifndef CO_EMCY_N
 #define CO_EMCY_N 8

@@ -186,7 +186,7 @@ static void test_the_inhibit_time_holds_messages_back(void) {
   TEST_ASSERT_SENT("585#6015100000000000");
   COEmcySet(&Node.Emcy, APP_ERR_ID_HOT, NULL);
   COEmcyClr(&Node.Emcy, APP_ERR_ID_HOT);
-#if USE_EMCY_QUEUE
+#if CO_EMCY_QUEUE_N > 0
   TEST_ASSERT_SENT("085#0041090000000000");
   TimePasses(&Node, 9);
   TEST_ASSERT_SENT("");

@@ -76,7 +76,7 @@ TEST_CASE("Deferred work: what a callback has caused is sent before the NMT stat
   node.tx({"081#0040090000000000", "181#09"});
 }
 
-#if USE_EMCY_QUEUE
+#if CO_EMCY_QUEUE_N > 0
 
 TEST_CASE("Deferred work: more errors than the queue of EMCY messages has places are all sent in one call") {
   const unsigned errors = 3 * CO_EMCY_QUEUE_N < CO_EMCY_N ? 3 * CO_EMCY_QUEUE_N : CO_EMCY_N;

@@ -104,7 +104,7 @@ TEST_CASE("1014h: stored relative to the node-ID without its flags; another node
   node.tx("085#0010010000000000");
 }
 
-#if USE_EMCY_QUEUE
+#if CO_EMCY_QUEUE_N > 0
 
 TEST_CASE("1014h: messages queued for the inhibit time are dropped when it is switched off [E5]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 1000);

@@ -211,7 +211,7 @@ TEST_CASE("EMCY: errors detected during bus-off are sent after it in their order
   node.tx({"081#0040190000000000", "081#4081190000000000", "081#0000090000000000"});
 }
 
-#if USE_EMCY_QUEUE
+#if CO_EMCY_QUEUE_N > 0
 
 TEST_CASE("EMCY: 8140h and 0000h keep the inhibit time [E6]") {
   EmcyNode node(Setup(), 500);

@@ -84,7 +84,7 @@ TEST_CASE("1003h: resolved errors are not entered [E8] [N8]") {
   CHECK(node.errors() == Errors{0x8130, 0x2000});
 }
 
-#if USE_EMCY_QUEUE
+#if CO_EMCY_QUEUE_N > 0
 
 TEST_CASE("1003h: errors are entered in their order, independent of the inhibit time [E8]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 1000);

@@ -2,7 +2,7 @@
 // EMCY messages that are delayed by the inhibit time (1015h) or by the controller. [301:7.5.2.18]
 #include "support/emcy_fixture.hpp"
 
-#if USE_EMCY && USE_EMCY_QUEUE
+#if USE_EMCY && CO_EMCY_QUEUE_N > 0
 
 namespace {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// EMCY messages without their queue (USE_EMCY_QUEUE 0): no inhibit time, no attempt to send again.
+// EMCY messages without their queue (CO_EMCY_QUEUE_N 0): no inhibit time, no attempt to send again.
 #include "support/emcy_fixture.hpp"
 
-#if USE_EMCY && !USE_EMCY_QUEUE
+#if USE_EMCY && CO_EMCY_QUEUE_N == 0
 
 namespace {
 

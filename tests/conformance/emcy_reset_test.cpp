@@ -65,7 +65,7 @@ TEST_CASE("EMCY: reset communication resolves the errors of the stack; those of 
   node.silent();
 }
 
-#if USE_EMCY_QUEUE
+#if CO_EMCY_QUEUE_N > 0
 
 TEST_CASE("EMCY: a reset drops messages queued for the inhibit time, which starts anew [T14] [N4]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {

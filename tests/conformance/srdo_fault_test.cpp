@@ -309,7 +309,7 @@ TEST_CASE("SRDO faults: the callback may leave Operational, after the EMCY [SR14
   node.tx({"081#0082110000011309", "081#0000000000011309"});
 }
 
-#if USE_EMCY && USE_EMCY_QUEUE
+#if USE_EMCY && CO_EMCY_QUEUE_N > 0
 TEST_CASE("SRDO faults: COEmcySet() in the callback for the change to Stopped sends no EMCY of Operational [SR14]") {
   SrdoTable table;
   table.srdo[0].receive(0x109, pair_of_3);

@@ -10,7 +10,7 @@
 #define USE_OBJ_EX 0
 #define USE_CSDO_BLOCK 0
 #define USE_CSDO_OWN 0
-#define USE_EMCY_QUEUE 0
+#define CO_EMCY_QUEUE_N 0
 #define USE_GUARDING 0
 #define USE_PDO_RTR 0
 #define CO_PARA_BUDGET 0

@@ -2,7 +2,7 @@
 // EMCY messages without queue and inhibit time: they are sent at once.
 #include "service/emcy/emcy.hpp"
 
-#if USE_EMCY && !USE_EMCY_QUEUE
+#if USE_EMCY && CO_EMCY_QUEUE_N == 0
 
 #include "base/transmit.hpp"
 #include "wire/cob_id.hpp"

@@ -2,7 +2,7 @@
 // Queue of EMCY messages that wait for the end of the API call, the inhibit time or the transmit queue. [301:7.2.7.1]
 #include "service/emcy/emcy.hpp"
 
-#if USE_EMCY && USE_EMCY_QUEUE
+#if USE_EMCY && CO_EMCY_QUEUE_N > 0
 
 #include "base/count.hpp"
 #include "base/timer.hpp"

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: Apache-2.0
+// expect: USE_EMCY_QUEUE was replaced: CO_EMCY_QUEUE_N 0
+// Settings of earlier versions: the message names the successor.
+#define USE_EMCY_QUEUE 0
+#include "co_core.h"
