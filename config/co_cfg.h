@@ -84,28 +84,30 @@
 #define USE_SDO_BLOCK 1
 #endif
 
-/// Block transfer of SDO clients: 0 or 1, the value of USE_SDO_BLOCK by default. With 0 clients transfer objects of any
-/// length in segments. 0 saves 1.8 KB of flash (Cortex-M0+, -Os).
-#ifndef USE_CSDO_BLOCK
-#define USE_CSDO_BLOCK USE_SDO_BLOCK
+/// Minimum number of bytes for which SDO clients request a block transfer: 5…256; 0: they transfer objects of any
+/// length in segments, which saves 1.8 KB of flash (Cortex-M0+, -Os). Objects shorter than the default need fewer
+/// frames in segments. Without USE_SDO_BLOCK 0 by default.
+#ifndef CO_CSDO_BLOCK
+#if USE_SDO_BLOCK
+#define CO_CSDO_BLOCK 29
+#else
+#define CO_CSDO_BLOCK 0
 #endif
-#if USE_CSDO_BLOCK && !USE_SDO_BLOCK
-#error "USE_CSDO_BLOCK needs USE_SDO_BLOCK"
+#endif
+#if CO_CSDO_BLOCK != 0 && !USE_SDO_BLOCK
+#error "CO_CSDO_BLOCK needs USE_SDO_BLOCK"
+#endif
+#if CO_CSDO_BLOCK != 0 && (CO_CSDO_BLOCK < 5 || CO_CSDO_BLOCK > 256)
+#error "CO_CSDO_BLOCK: 0 or 5...256 bytes"
+#endif
+#ifdef USE_CSDO_BLOCK
+#error "USE_CSDO_BLOCK was replaced: CO_CSDO_BLOCK 0 omits the block transfer of SDO clients"
 #endif
 
 /// Access of SDO clients to the dictionary of their own node, if sub 3 of 1280h… is its node-ID: 0 or 1. With 0 such a
 /// client is not configured: COCSdoFind() returns null. 0 saves 800 bytes of flash (Cortex-M0+, -Os).
 #ifndef USE_CSDO_OWN
 #define USE_CSDO_OWN 1
-#endif
-
-/// Minimum number of bytes for which a client requests a block transfer: 5…256. Shorter objects need fewer frames in
-/// segments. No cost.
-#ifndef CO_CSDO_BLOCK
-#define CO_CSDO_BLOCK 29
-#endif
-#if CO_CSDO_BLOCK < 5 || CO_CSDO_BLOCK > 256
-#error "CO_CSDO_BLOCK: 5...256 bytes"
 #endif
 
 /// Time in ms after which the server ends a transfer whose client no longer responds: 0 (never)…60000. It is not ended
@@ -246,9 +248,9 @@
 #error "CO_EMCY_N: 1...256 errors"
 #endif
 
-/// Length of the queue of EMCY messages that wait for the inhibit time (1015h) or for the transmit queue: 0…255. With 0,
-/// messages are sent at once, 1015h has no effect, and a message that finds the transmit queue full is lost. 0 saves 380
-/// bytes of flash (Cortex-M0+, -Os); each message costs 8 bytes of RAM.
+/// Length of the queue of EMCY messages that wait for the inhibit time (1015h) or for the transmit queue: 0…255. With
+/// 0, messages are sent at once, 1015h has no effect, and a message that finds the transmit queue full is lost. 0 saves
+/// 380 bytes of flash (Cortex-M0+, -Os); each message costs 8 bytes of RAM.
 #ifndef CO_EMCY_QUEUE_N
 #define CO_EMCY_QUEUE_N 4
 #endif

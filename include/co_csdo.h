@@ -12,7 +12,7 @@
 /// such a client is not configured.
 ///
 /// The stack selects the kind of transfer: expedited up to 4 bytes; block transfer from CO_CSDO_BLOCK bytes on
-/// (USE_CSDO_BLOCK), with fallback to a segmented transfer if the server refuses it; otherwise segmented.
+/// (0: never), with fallback to a segmented transfer if the server refuses it; otherwise segmented.
 ///
 /// Every request that was started calls its callback once: when the transfer is complete, was aborted by either side,
 /// has timed out, was cancelled, or when the NMT state no longer allows SDO. Numbers are not converted: the buffer

@@ -41,7 +41,7 @@ struct Transfer {
 class SdoClient {
  public:
   /// Objects up to this size are read without block transfer: expedited or segmented.
-  static constexpr std::uint32_t small = CO_CSDO_BLOCK - 1;
+  static constexpr std::uint32_t small = CO_CSDO_BLOCK > 0 ? CO_CSDO_BLOCK - 1U : 28U;
 
   struct Options {
     std::uint32_t capacity = small;              // upload: largest size of the object, bytes

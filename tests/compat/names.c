@@ -334,9 +334,9 @@ static void test_sizes_of_the_sdo_buffer_belong_together(void) {
 
 /* The names exist in a configuration that does not use them, too. */
 static void test_the_configuration_has_all_its_names(void) {
-  const long values[] = {CO_SSDO_N,      USE_CSDO,      CO_CSDO_N,      USE_SDO_BLOCK,  CO_CSDO_BLOCK,
-                         CO_SDO_TIMEOUT, CO_TX_QUEUE_N, CO_SDO_BUF_SEG, USE_CSDO_BLOCK, USE_CSDO_OWN};
-  const long largest[] = {128, 1, 100, 1, 256, 60000, 1000, 127, 1, 1};
+  const long values[] = {CO_SSDO_N,      USE_CSDO,      CO_CSDO_N,      USE_SDO_BLOCK, CO_CSDO_BLOCK,
+                         CO_SDO_TIMEOUT, CO_TX_QUEUE_N, CO_SDO_BUF_SEG, USE_CSDO_OWN};
+  const long largest[] = {128, 1, 100, 1, 256, 60000, 1000, 127, 1};
   for (size_t i = 0; i < sizeof(values) / sizeof(values[0]); i++) {
     TEST_ASSERT_GREATER_OR_EQUAL(0, values[i]);
     TEST_ASSERT_LESS_OR_EQUAL(largest[i], values[i]);

@@ -3,7 +3,7 @@
 #include "support/sdo_client_fixture.hpp"
 #include "support/sdo_client_peer.hpp"
 
-#if USE_CSDO && USE_CSDO_BLOCK
+#if USE_CSDO && CO_CSDO_BLOCK > 0
 
 namespace {
 

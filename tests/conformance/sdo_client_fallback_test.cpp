@@ -18,7 +18,7 @@ TEST_CASE("SDO client: downloads of up to 4 bytes are expedited, up to 28 segmen
     {4, "605#2300200501020304"},
     {5, "605#2100200505000000"},
     {28, "605#210020051C000000"},
-#if USE_CSDO_BLOCK
+#if CO_CSDO_BLOCK > 0
     {29, "605#C60020051D000000"},
     {256, "605#C600200500010000"}
 #else
@@ -42,7 +42,7 @@ TEST_CASE("SDO client: uploads into buffers of up to 28 bytes are normal, into l
     CAPTURE(size);
     SdoClient node;
     node.start_upload(0x2000, 5, size);
-    node.tx(size < 29 || USE_CSDO_BLOCK == 0 ? "605#4000200500000000" : "605#A40020057F1C0000");
+    node.tx(size < 29 || CO_CSDO_BLOCK == 0 ? "605#4000200500000000" : "605#A40020057F1C0000");
     node.cancel();
     node.tx("605#8000200521000008");
     node.ended(CO_SDO_ERR_TOS_LOCAL);
@@ -95,7 +95,7 @@ TEST_CASE("SDO client: a download of 0 bytes is sent in a segment") {
   node.ended(0);
 }
 
-#if USE_CSDO_BLOCK
+#if CO_CSDO_BLOCK > 0
 
 TEST_CASE("SDO client: a server without block transfer refuses with a stale multiplexer: segments follow at once") {
   SdoClient node;

@@ -139,7 +139,7 @@ TEST_CASE("SDO client: an answer after a cancel does not disturb the next transf
   node.has_written();
 }
 
-#if USE_CSDO_BLOCK
+#if CO_CSDO_BLOCK > 0
 
 void check_ignores_others(SdoClient& node) {
   for (const char* other : others) {

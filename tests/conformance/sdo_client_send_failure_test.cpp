@@ -41,7 +41,7 @@ TEST_CASE("SDO client: a request that the controller refuses is sent later") {
   node.has_read({0x11});
 }
 
-#if USE_CSDO_BLOCK
+#if CO_CSDO_BLOCK > 0
 
 // Runs a transfer while the controller refuses \a times frames of the client, from number \a refuse_at. Returns the
 // client's frames.

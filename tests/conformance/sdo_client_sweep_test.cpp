@@ -45,7 +45,7 @@ std::string deviation(SdoClient& node, const ClientState& state, unsigned comman
 }
 
 TEST_CASE("SDO client: the table of reactions has every state and one reaction for each command byte [T6]") {
-  CHECK(client_states().size() == (USE_CSDO_BLOCK != 0 ? 20 : 9));
+  CHECK(client_states().size() == (CO_CSDO_BLOCK != 0 ? 20 : 9));
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     for (unsigned command = 0; command < 256; ++command) {

@@ -196,7 +196,7 @@ TEST_CASE("SDO client: the abort of a time-out has the multiplexer of the object
   CHECK(node.ended(CO_SDO_ERR_TIMEOUT).num == 0);
 }
 
-#if USE_CSDO_BLOCK
+#if CO_CSDO_BLOCK > 0
 
 // Returns the times in ms at which the client repeats the acknowledge before its time-out of 1 s.
 std::vector<std::uint64_t> acknowledges_in_silence(SdoClient& node, const std::string& acknowledge) {

@@ -215,7 +215,7 @@ TEST_CASE("loop without idle calls: a type function may stop the node in COTmrPr
 }
 #endif
 
-#if USE_CSDO && USE_CSDO_BLOCK
+#if USE_CSDO && CO_CSDO_BLOCK > 0
 
 TEST_CASE("loop without idle calls: COTmrProcess() continues a block download of the client within the segment limit") {
   SdoClient node;

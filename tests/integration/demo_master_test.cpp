@@ -190,12 +190,12 @@ TEST_CASE("demo master: a file is written and read back unchanged, by block tran
   write.write = true;
   write.file = file.name;
   CHECK(desk.run(write) == 0);
-  CHECK(desk.was_sent(USE_CSDO_BLOCK != 0 ? "605#C600220000200100" : "605#2100220000200100"));
+  CHECK(desk.was_sent(CO_CSDO_BLOCK != 0 ? "605#C600220000200100" : "605#2100220000200100"));
   file.put("something else");
   Arguments read = to_read("0x2200", "0", "");
   read.file = file.name;
   CHECK(desk.run(read) == 0);
-  CHECK(desk.was_sent(USE_CSDO_BLOCK != 0 ? "605#A40022007F1C0000" : "605#4000220000000000"));
+  CHECK(desk.was_sent(CO_CSDO_BLOCK != 0 ? "605#A40022007F1C0000" : "605#4000220000000000"));
   CHECK(desk.out.str() == "");
   CHECK(desk.err.str() == "");
   CHECK((file.content() == content));
@@ -304,7 +304,7 @@ TEST_CASE("demo master: progress is written to standard error, in lines or as a 
   arguments.file = file.name;
   desk.form = Progress::Form::lines;
   CHECK(desk.run(arguments) == 0);
-#if USE_CSDO_BLOCK  // progress counts whole sub-blocks
+#if CO_CSDO_BLOCK > 0  // progress counts whole sub-blocks
   CHECK(desk.err.str().find("]  25 %  18669 of 73728 bytes\n") != std::string::npos);
 #endif
   CHECK(desk.err.str().find("] 100 %  73728 of 73728 bytes\n") != std::string::npos);

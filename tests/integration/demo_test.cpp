@@ -112,7 +112,7 @@ TEST_CASE("demo: all steps of the tour succeed, and its trace is readable") {
   CHECK(bench.shows("585  80 00 21 01 31 00 09 06  SDO ABORT 2100h:01 hour: 0609 0031h value too high"));
   CHECK(bench.shows("585  80 FF 2F 00 00 00 02 06  SDO ABORT 2FFFh:00: 0602 0000h object does not exist"));
   CHECK(bench.shows("ok  73728 bytes written"));
-#if USE_CSDO_BLOCK
+#if CO_CSDO_BLOCK > 0
   CHECK(bench.shows("605  C6 00 22 00 00 20 01 00  SDO block download 2200h:00 picture, 73728 bytes, CRC"));
   CHECK(bench.shows("605  A4 00 22 00 7F 1C 00 00  SDO block upload 2200h:00 picture, blksize 127, pst 28, CRC"));
   CHECK(bench.shows("585  C6 00 22 00 00 20 01 00  SDO answer: 2200h:00 picture block upload, 73728 bytes, CRC"));
@@ -333,7 +333,7 @@ TEST_CASE("demo: any lost frame fails one step and those that depend on it") {
   }
 }
 
-#if USE_CSDO_BLOCK && CO_SDO_BUF_SEG >= 85
+#if CO_CSDO_BLOCK > 0 && CO_SDO_BUF_SEG >= 85
 TEST_CASE("demo: the picture is transferred in both directions although segments are lost") {
   Bench bench;
   const auto segment_85_of = [](std::uint32_t identifier) {
@@ -355,7 +355,7 @@ TEST_CASE("demo: the picture is transferred in both directions although segments
 TEST_CASE("demo: a picture that is read back with other bytes is detected") {
   Bench bench;
   bool spoilt = false;
-  constexpr std::uint8_t initiate = USE_CSDO_BLOCK != 0 ? 0xA4 : 0x40;
+  constexpr std::uint8_t initiate = CO_CSDO_BLOCK != 0 ? 0xA4 : 0x40;
   bench.host.bus.set_trace([&](const VirtualBus::Traffic& traffic) {
     const CO_IF_FRM& frame = traffic.frame;
     if (!spoilt && frame.Identifier == 0x605 && frame.Data[0] == initiate && frame.Data[1] == 0x00 &&
@@ -375,7 +375,7 @@ TEST_CASE("demo: a picture that is read back with other bytes is detected") {
 TEST_CASE("demo: the progress of a long transfer is shown in a few lines") {
   Bench bench;
   demo::run_tour(bench.clock, bench.master, bench.view);
-#if USE_CSDO_BLOCK  // progress counts whole sub-blocks
+#if CO_CSDO_BLOCK > 0  // progress counts whole sub-blocks
   CHECK(bench.shows("]  25 %  18669 of 73728 bytes"));
 #endif
   CHECK(bench.shows("] 100 %  73728 of 73728 bytes"));

@@ -8,7 +8,7 @@
 #include "support/sdo_pair_faults.hpp"
 #include "support/sdo_pair_foreign.hpp"
 
-#if USE_CSDO && USE_CSDO_BLOCK
+#if USE_CSDO && CO_CSDO_BLOCK > 0
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "support/sdo_pair.hpp"
 
-#if USE_CSDO && USE_CSDO_BLOCK
+#if USE_CSDO && CO_CSDO_BLOCK > 0
 
 namespace {
 

@@ -33,7 +33,7 @@ class DisturbedTransfer {
  public:
   DisturbedTransfer(std::uint32_t bytes, bool block)
       : segments_((bytes + 6) / 7),
-        blocks_(USE_CSDO_BLOCK != 0 && block && bytes >= CO_CSDO_BLOCK),
+        blocks_(CO_CSDO_BLOCK != 0 && block && bytes + 1 > CO_CSDO_BLOCK),
         pair_({bytes, block}) {}
 
   // Runs transfers with a fault at every \a stride-th frame, at the first five and at the last five frames.

@@ -13,7 +13,7 @@ lane() {
   configuration one-segment "-O2 -DCO_SDO_BUF_SEG=1" slave
   configuration two-segments "-O2 -DCO_SDO_BUF_SEG=2 -DCO_SSDO_N=128 -DCO_CSDO_N=100" slave
   configuration segment-a-call "-O2 -DCO_SDO_BUF_SEG=8 -DCO_SDO_BLOCK_PACE=1" slave
-  configuration no-block "-O2 -DUSE_SDO_BLOCK=0 -DUSE_CSDO_BLOCK=0 -DUSE_CSDO_OWN=0" slave
+  configuration no-block "-O2 -DUSE_SDO_BLOCK=0 -DUSE_CSDO_OWN=0" slave
   # No remote requests, no LSS in Operational, restricted CAN-IDs permitted, a gap between the frames of an SRDO; most PDOs.
   configuration no-remote "-O2 -DUSE_PDO_RTR=0 -DCO_LSS_IN_OPERATIONAL=0 -DCO_RESTRICTED_IDS=1 -DCO_SRDO_GAP=300"
   configuration pdo-512 "-O2 -DCO_RPDO_N=512 -DCO_TPDO_N=512" slave

@@ -8,7 +8,7 @@
 #define USE_DICT_CHECK 0
 #define USE_CALLBACKS 0
 #define USE_OBJ_EX 0
-#define USE_CSDO_BLOCK 0
+#define CO_CSDO_BLOCK 0
 #define USE_CSDO_OWN 0
 #define CO_EMCY_QUEUE_N 0
 #define USE_GUARDING 0

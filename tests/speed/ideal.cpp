@@ -100,8 +100,8 @@ void add_block(Wire& wire, bool upload, const Bytes& data) {
   const auto from_source = [&](const Payload& payload) { upload ? wire.response(payload) : wire.request(payload); };
   const auto from_sink = [&](const Payload& payload) { upload ? wire.request(payload) : wire.response(payload); };
   if (upload) {
-    // the client may choose any protocol switch threshold; this is Lexican's
-    wire.request(initiate(0xA4, block_segments | std::size_t{CO_CSDO_BLOCK - 1} << 8));
+    // the client may choose any protocol switch threshold; this is Lexican's default
+    wire.request(initiate(0xA4, block_segments | std::size_t{28} << 8));
     wire.response(initiate(0xC6, data.size()));
     wire.request({0xA3});
   } else {

@@ -125,7 +125,7 @@ void add_segmented_download(States& all) {
                  {{"30", {}, done}, abort("20", CO_SDO_ERR_TBIT), {"80", {}, 0x00000004}, unknown}});
 }
 
-#if USE_CSDO_BLOCK
+#if CO_CSDO_BLOCK > 0
 
 std::string acknowledge(unsigned sequence) {
   char text[24];
@@ -283,7 +283,7 @@ States make_states() {
   States all;
   add_segmented_upload(all);
   add_segmented_download(all);
-#if USE_CSDO_BLOCK
+#if CO_CSDO_BLOCK > 0
   add_block_upload_initiate(all);
   add_block_upload(all);
   add_block_download(all);

@@ -36,7 +36,7 @@ struct ClientState {
   std::vector<ClientReaction> reactions;
 };
 
-/// Returns all states; those of block transfers only if USE_CSDO_BLOCK is set.
+/// Returns all states; those of block transfers only if CO_CSDO_BLOCK is not 0.
 const std::vector<ClientState>& client_states();
 
 /// Returns the reactions of \a state to a command byte: exactly one if the table is correct.

@@ -3,7 +3,7 @@
 #include "base/transmit.hpp"
 #include "service/sdo_client/transfer.hpp"
 
-#if USE_CSDO && USE_CSDO_BLOCK
+#if USE_CSDO && CO_CSDO_BLOCK > 0
 
 namespace co::sdo_client {
 namespace {

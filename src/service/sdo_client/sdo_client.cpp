@@ -63,7 +63,7 @@ constexpr Transition<Response, Handler> rows[] = {
 
     {in_transfer, Response::abort, aborted},
 
-#if USE_CSDO_BLOCK
+#if CO_CSDO_BLOCK > 0
     {in(State::block_download_initiated, State::block_download), Response::initiate_block_download,
      block_download_accepted},
     {in(State::block_download), Response::acknowledge_block, block_acknowledged},
@@ -213,9 +213,12 @@ void abort_transfer(CO_CSDO& client, Abort code) {
   finish(client, code);
 }
 
+// Protocol switch threshold: the server may send objects up to this size without blocks.
+constexpr auto pst = static_cast<uint8_t>(CO_CSDO_BLOCK - 1);
+
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request) {
   const bool upload = has(client, is_upload);
-  const bool block = has_block && by_block && client.Size >= CO_CSDO_BLOCK;
+  const bool block = has_block && by_block && client.Size > pst;
   const bool expedited = is_expedited(client);
   client.Flags = upload ? is_upload : 0;
   client.Num = 0;
@@ -228,7 +231,7 @@ void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request) {
     set_state(client, block ? State::block_upload_initiated : State::upload_initiated);
     wire::put_head(request, block ? wire::accept_block : wire::initiate_upload_request, client.Key);
     request.Data[4] = block ? wire::max_blksize : 0;
-    request.Data[5] = block ? CO_CSDO_BLOCK - 1 : 0;  // pst: shorter objects may be sent without blocks
+    request.Data[5] = block ? pst : 0;
     return;
   }
   set_state(client, block ? State::block_download_initiated : State::download_initiated);

@@ -28,7 +28,7 @@ enum class State : uint8_t {
   count
 };
 
-inline constexpr bool has_block = USE_CSDO_BLOCK != 0;
+inline constexpr bool has_block = CO_CSDO_BLOCK != 0;
 inline constexpr bool has_own = USE_CSDO_OWN != 0;
 
 // CO_CSDO.Flags
@@ -96,7 +96,7 @@ void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request);
 // Compares a total length with the announced size. Returns an abort code.
 [[nodiscard]] Abort check_total(const CO_CSDO& client, uint32_t total);
 
-// Block transfer (USE_CSDO_BLOCK) ---------------------------------------------------------------------------------
+// Block transfer (CO_CSDO_BLOCK not 0) --------------------------------------------------------------------------
 
 // In a block upload the timer runs for a quarter of the time-out at a time.
 inline constexpr uint32_t quarters = 4;
