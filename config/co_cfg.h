@@ -145,27 +145,17 @@
 #endif
 
 /// Multiplex PDOs with destination and source addressing (FFh and FEh in sub 0 of 1600h…, 1A00h…; 1FA0h…, 1FD0h…):
-/// 0 or 1. 1 costs 2.9 KB of flash, with both lists 4.2 KB (Cortex-M0+, -Os), 12 bytes of RAM, 4 in each PDO, and the
-/// memory of the two settings below.
-#ifndef USE_MPDO
-#define USE_MPDO 0
+/// maximum number of objects in the object scanner list, including all objects of blocks, and of entries in the object
+/// dispatching list, 1…1024; 0: none. They cost 2.9 KB of flash, with both lists 4.2 KB (Cortex-M0+, -Os), 12 bytes of
+/// RAM, 4 in each PDO, and 10.25 for each object and entry.
+#ifndef CO_MPDO_N
+#define CO_MPDO_N 0
 #endif
-
-/// Maximum number of objects in the object scanner list (1FA0h…), including all objects of blocks: 1…1024. Each costs
-/// 2.25 bytes of RAM with USE_MPDO.
-#ifndef CO_MPDO_SCAN_N
-#define CO_MPDO_SCAN_N 16
+#if CO_MPDO_N < 0 || CO_MPDO_N > 1024
+#error "CO_MPDO_N: 0...1024 objects and entries"
 #endif
-#if CO_MPDO_SCAN_N < 1 || CO_MPDO_SCAN_N > 1024
-#error "CO_MPDO_SCAN_N: 1...1024 objects"
-#endif
-
-/// Maximum number of entries in the object dispatching list (1FD0h…): 1…1024. Each costs 8 bytes of RAM with USE_MPDO.
-#ifndef CO_MPDO_DISPATCH_N
-#define CO_MPDO_DISPATCH_N 16
-#endif
-#if CO_MPDO_DISPATCH_N < 1 || CO_MPDO_DISPATCH_N > 1024
-#error "CO_MPDO_DISPATCH_N: 1...1024 entries"
+#if defined(USE_MPDO) || defined(CO_MPDO_SCAN_N) || defined(CO_MPDO_DISPATCH_N)
+#error "USE_MPDO, CO_MPDO_SCAN_N and CO_MPDO_DISPATCH_N were replaced: CO_MPDO_N is the length of both lists"
 #endif
 
 /// Transmission of event-driven TPDOs (types 254 and 255) when the node enters Operational: 0 or 1. No cost.

@@ -235,7 +235,7 @@ typedef struct CO_NODE_T {
   CO_TMR_MEM HbConsTmr;             ///< one timer for all heartbeat consumers
   CO_HB_WATCH HbCons[CO_HBCONS_N];  ///< indexed by sub-index of 1016h
 #endif
-#if USE_MPDO
+#if CO_MPDO_N > 0
   CO_MPDO Mpdo;  ///< object scanner list and object dispatching list
 #endif
   CO_IF_FRM TxFrame[CO_TX_QUEUE_N];  ///< memory of TxQueue, if CO_NODE_EXT.TxQueue is null

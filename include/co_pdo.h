@@ -15,8 +15,8 @@
 ///     stack calls the functions and callbacks of this file without the lock, except the Read and Write functions of
 ///     types.
 ///
-/// Multiplex PDOs, with USE_MPDO [CiA 301, 7.2.3]: each frame contains the multiplexer and the value of one object of
-/// up to 4 bytes. Sub 0 of the mapping selects the kind. They are event-driven and have no remote requests.
+/// Multiplex PDOs, with CO_MPDO_N above 0 [CiA 301, 7.2.3]: each frame contains the multiplexer and the value of one
+/// object of up to 4 bytes. Sub 0 of the mapping selects the kind. They are event-driven and have no remote requests.
 ///   - FFh, destination addressing: the frame names an object of the consumer, or of all consumers. It is sent by
 ///     COTPdoSendTo(), and written to objects that an RPDO could map (flags P and W). If there is no such object, EMCY
 ///     8230h is sent, once until an object is written again. Frames for other nodes are ignored.
@@ -92,7 +92,7 @@ struct CO_NODE_T;
 /// - Entry is FFFFh behind the last mapped object.
 typedef struct CO_PDO_MAP_T {
   uint8_t Flags;  ///< flags of the PDO
-#if USE_MPDO
+#if CO_MPDO_N > 0
   uint8_t Mode;  ///< FEh, FFh: multiplex PDO with source or destination addressing; 0: not multiplexed
 #endif
   uint8_t Length;                         ///< length in bytes, with USE_PDO_BITS in bits; 0: the PDO does not exist
@@ -135,7 +135,7 @@ typedef struct CO_PDO_T {
 typedef CO_PDO CO_RPDO;  ///< element of node.RPdo
 typedef CO_PDO CO_TPDO;  ///< element of node.TPdo
 
-#if USE_MPDO
+#if CO_MPDO_N > 0
 /// \cond internal
 typedef struct CO_MPDO_BLOCK_T {  ///< an entry of the object dispatching list
   uint32_t Producer;              ///< CO_DEV() of its first object in the producer, and the producer's node-ID
@@ -143,16 +143,15 @@ typedef struct CO_MPDO_BLOCK_T {  ///< an entry of the object dispatching list
   uint8_t Num;                    ///< number of objects
 } CO_MPDO_BLOCK;
 
-typedef struct CO_MPDO_T {                  ///< the resolved lists
-  CO_MPDO_BLOCK Block[CO_MPDO_DISPATCH_N];  ///< object dispatching list
+typedef struct CO_MPDO_T {         ///< the resolved lists
+  CO_MPDO_BLOCK Block[CO_MPDO_N];  ///< object dispatching list
   uint16_t BlockNum;
   uint16_t ScanNum;
-  uint16_t Scan[CO_MPDO_SCAN_N];              ///< entries of the object scanner list: numbers in the dictionary
-  uint8_t Waiting[(CO_MPDO_SCAN_N + 7) / 8];  ///< a bit for each object of Scan: transmission is pending
-  uint8_t
-      Transferred[(CO_MPDO_SCAN_N + 7) / 8];  ///< a bit for each object of Scan: sent since the application has read it
-  uint16_t NextObject;                        ///< round-robin index: the next object of Scan to be sent
-  uint16_t Producer;                          ///< number of the TPDO, from 1; 0: none
+  uint16_t Scan[CO_MPDO_N];                  ///< entries of the object scanner list: numbers in the dictionary
+  uint8_t Waiting[(CO_MPDO_N + 7) / 8];      ///< a bit for each object of Scan: transmission is pending
+  uint8_t Transferred[(CO_MPDO_N + 7) / 8];  ///< a bit for each object of Scan: sent since the application has read it
+  uint16_t NextObject;                       ///< round-robin index: the next object of Scan to be sent
+  uint16_t Producer;                         ///< number of the TPDO, from 1; 0: none
 } CO_MPDO;
 /// \endcond
 #endif
@@ -191,7 +190,7 @@ CO_ERR COTPdoRequest(struct CO_NODE_T* node, uint16_t num);
 /// \retval CO_ERR_TPDO_INHIBIT      the inhibit time of the PDO has not elapsed
 /// \retval CO_ERR_IF_CAN_SEND       the transmit queue is full
 CO_ERR COTPdoSendTo(struct CO_NODE_T* node, uint16_t num, uint8_t node_id, uint32_t key, uint32_t value)
-    CO_NEEDS(USE_MPDO);
+    CO_NEEDS(CO_MPDO_N);
 
 /// \name Received and sent PDOs
 /// Return whether a PDO, or an object in a PDO, was received or sent since the last call (or since the PDO was switched

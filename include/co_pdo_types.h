@@ -82,9 +82,9 @@ extern const CO_OBJ_TYPE COTPdoStart;  ///< functions of CO_TPDO_START
 /// After a refused write the number is 0. Objects without flag P, which the table may map (CO_TPDO_MAP), are refused
 /// unless the number is the one that sub 0 already has.
 ///
-/// With USE_MPDO: FEh and FFh make it a multiplex PDO with source or destination addressing (co_pdo.h). Refused: if the
-/// transmission type is not 254 or 255 (0604 0043h); FEh, if the dictionary has no object scanner or dispatching list
-/// (0604 0042h), or if there is another TPDO of that kind (0604 0043h).
+/// With CO_MPDO_N above 0: FEh and FFh make it a multiplex PDO with source or destination addressing (co_pdo.h).
+/// Refused: if the transmission type is not 254 or 255 (0604 0043h); FEh, if the dictionary has no object scanner or
+/// dispatching list (0604 0042h), or if there is another TPDO of that kind (0604 0043h).
 /// \{
 
 extern const CO_OBJ_TYPE COTPdoNum;  ///< functions of CO_TPDO_NUM
@@ -112,17 +112,18 @@ extern const CO_OBJ_TYPE COTPdoMap;  ///< functions of CO_TPDO_MAP
 /// \}
 
 /// \name 1FA0h…1FCFh, sub 1…254: object scanner list
-/// With USE_MPDO. [CiA 301, 7.5.2.39] It contains the objects of the one TPDO that is a multiplex PDO with source
-/// addressing (co_pdo.h). Data: a uint32_t, CO_MPDO_SCAN(), or the value itself (flag D); 0: the entry is not used. The
-/// list begins with 1FA0h sub 1 and continues with all entries in the dictionary; sub 0 is a plain CO_TUNSIGNED8.
+/// With CO_MPDO_N above 0. [CiA 301, 7.5.2.39] It contains the objects of the one TPDO that is a multiplex PDO with
+/// source addressing (co_pdo.h). Data: a uint32_t, CO_MPDO_SCAN(), or the value itself (flag D); 0: the entry is not
+/// used. The list begins with 1FA0h sub 1 and continues with all entries in the dictionary; sub 0 is a plain
+/// CO_TUNSIGNED8.
 ///
 /// Refused: an index without object (0602 0000h); an object that could not be mapped into a TPDO, or has more than 4
-/// bytes (0604 0041h); more than CO_MPDO_SCAN_N objects (0604 0042h); a block beyond sub-index 255 (0609 0030h). A
+/// bytes (0604 0041h); more than CO_MPDO_N objects (0604 0042h); a block beyond sub-index 255 (0609 0030h). A
 /// change takes effect at once and discards pending transmissions; with a plain CO_TUNSIGNED32, it takes effect when
 /// the PDO is switched on.
 /// \{
 
-extern const CO_OBJ_TYPE COTPdoScan CO_NEEDS(USE_MPDO);  ///< functions of CO_TPDO_SCAN
+extern const CO_OBJ_TYPE COTPdoScan CO_NEEDS(CO_MPDO_N);  ///< functions of CO_TPDO_SCAN
 
 #define CO_TPDO_SCAN ((const CO_OBJ_TYPE*)&COTPdoScan)  ///< type of 1FA0h…1FCFh, sub 1…254
 
@@ -132,18 +133,18 @@ extern const CO_OBJ_TYPE COTPdoScan CO_NEEDS(USE_MPDO);  ///< functions of CO_TP
 /// \}
 
 /// \name 1FD0h…1FFFh, sub 1…254: object dispatching list
-/// With USE_MPDO. [CiA 301, 7.5.2.40] It defines which object of this node is written when an object of another node is
-/// received in a multiplex PDO with source addressing (co_pdo.h). The first matching entry is used. Data: a uint64_t,
-/// CO_MPDO_DISPATCH(); 0: the entry is not used. The list begins with 1FD0h sub 1 and continues with all entries in the
-/// dictionary; sub 0 is a plain CO_TUNSIGNED8.
+/// With CO_MPDO_N above 0. [CiA 301, 7.5.2.40] It defines which object of this node is written when an object of
+/// another node is received in a multiplex PDO with source addressing (co_pdo.h). The first matching entry is used.
+/// Data: a uint64_t, CO_MPDO_DISPATCH(); 0: the entry is not used. The list begins with 1FD0h sub 1 and continues with
+/// all entries in the dictionary; sub 0 is a plain CO_TUNSIGNED8.
 ///
 /// Refused: an index without object (0602 0000h); an object of this node that could not be mapped into an RPDO, or has
-/// more than 4 bytes (0604 0041h); more than CO_MPDO_DISPATCH_N entries (0604 0042h); a node-ID outside 1…127, a block
+/// more than 4 bytes (0604 0041h); more than CO_MPDO_N entries (0604 0042h); a node-ID outside 1…127, a block
 /// beyond sub-index 255 (0609 0030h). A change takes effect at once; with a plain CO_TUNSIGNED64, when an RPDO that
 /// uses the list is switched on.
 /// \{
 
-extern const CO_OBJ_TYPE COTPdoDispatch CO_NEEDS(USE_MPDO);  ///< functions of CO_TPDO_DISPATCH
+extern const CO_OBJ_TYPE COTPdoDispatch CO_NEEDS(CO_MPDO_N);  ///< functions of CO_TPDO_DISPATCH
 
 #define CO_TPDO_DISPATCH ((const CO_OBJ_TYPE*)&COTPdoDispatch)  ///< type of 1FD0h…1FFFh, sub 1…254
 

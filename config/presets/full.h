@@ -18,8 +18,8 @@
 #ifndef CO_TPDO_N
 #define CO_TPDO_N 8
 #endif
-#ifndef USE_MPDO
-#define USE_MPDO 1
+#ifndef CO_MPDO_N
+#define CO_MPDO_N 16
 #endif
 #ifndef USE_REAL_TIME
 #define USE_REAL_TIME 1

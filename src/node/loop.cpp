@@ -22,7 +22,7 @@ bool waits_to_send(const CO_NODE& node) { return transmit::is_waiting(node) || n
 // Offers frames that the driver has refused to the driver again, then continues block transfers and multiplex PDOs.
 void resume_sending(CO_NODE& node) {
   transmit::flush(node);
-  if ((USE_SDO_BLOCK != 0 || USE_MPDO != 0) && node.Paused != 0) {
+  if ((USE_SDO_BLOCK != 0 || CO_MPDO_N != 0) && node.Paused != 0) {
     const event::Serving serving(node);
     parts::on_free(node);
   }

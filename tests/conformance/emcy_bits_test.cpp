@@ -109,7 +109,7 @@ TEST_CASE("error status bits: each error of the stack has its bit while it is pr
     {Fault::recovered, CO_EMCY_BIT_BUS_OFF},
     {Fault::pdo_short, CO_EMCY_BIT_PDO_SHORT},
     {Fault::pdo_long, CO_EMCY_BIT_PDO_LONG},
-#if USE_MPDO
+#if CO_MPDO_N > 0
     {Fault::pdo_unknown, CO_EMCY_BIT_PDO_UNKNOWN},
 #endif
     {Fault::sync_length, CO_EMCY_BIT_SYNC_LENGTH},

@@ -201,7 +201,7 @@ const Function functions[] = {
     [](Node& of) { ignore(COTPdoWasSent(&of.node, 0)); },
     [](Node& of) { ignore(CORPdoObjWasReceived(&of.node, entry(of))); },
     [](Node& of) { ignore(COTPdoObjWasSent(&of.node, entry(of))); },
-#if USE_MPDO
+#if CO_MPDO_N > 0
     [](Node& of) { ignore(COTPdoSendTo(&of.node, 0, 2, key, 1)); },
 #endif
     // co_tmr.h

@@ -4,7 +4,7 @@
 #include "lexican/dictionary.hpp"
 #include "support/mpdo_fixture.hpp"
 
-#if USE_MPDO && CO_RPDO_N > 0 && CO_TPDO_N > 0
+#if CO_MPDO_N > 0 && CO_RPDO_N > 0 && CO_TPDO_N > 0
 
 namespace {
 
@@ -331,7 +331,7 @@ TEST_CASE(
 }
 
 TEST_CASE("MPDO scanner list: more objects than the node can store are refused with 0604 0042h [301:7.5.2.39]") {
-  static_assert(CO_MPDO_SCAN_N == 16);
+  static_assert(CO_MPDO_N == 16);
   MpdoNode node;
   CHECK(node.set(0x1FA0, 1, 4, 0x08220101) == 0);
   CHECK(node.set(0x1FA1, 1, 4, 0x08220201) == 0);
@@ -366,7 +366,7 @@ TEST_CASE("MPDO scanner list: missing space is reported before any other error [
 }
 
 TEST_CASE("MPDO dispatching list: more entries than the node can store are refused with 0604 0042h [301:7.5.2.40]") {
-  static_assert(CO_MPDO_DISPATCH_N == 16);
+  static_assert(CO_MPDO_N == 16);
   std::array<std::uint64_t, 17> list{};
   MpdoNode node({}, [&](Setup& setup) {
     for (std::uint8_t n = 0; n < list.size(); ++n) {

@@ -4,7 +4,7 @@
 
 #include "support/mpdo_fixture.hpp"
 
-#if USE_MPDO && CO_RPDO_N > 0 && CO_TPDO_N > 0
+#if CO_MPDO_N > 0 && CO_RPDO_N > 0 && CO_TPDO_N > 0
 
 namespace {
 

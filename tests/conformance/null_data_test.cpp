@@ -69,7 +69,7 @@ const Null placed[] = {
     {0x2301, 1, CO_TREC_CONFIG},  {0x2301, 10, CO_TREC_CONFIG},  {0x2400, 0, CO_TREC_ENABLE},
     {0x2401, 1, CO_TREC_DATA},    {0x2401, 6, CO_TREC_DATA},
 #endif
-#if USE_MPDO
+#if CO_MPDO_N > 0
     {0x1FA0, 1, CO_TPDO_SCAN},    {0x1FD0, 1, CO_TPDO_DISPATCH},
 #endif
 };

@@ -336,7 +336,7 @@ TEST_CASE("OD request: after CONodeStop() in a callback nothing is sent") {
   CHECK(node.mode() == CO_INVALID);
 }
 
-#if USE_MPDO
+#if CO_MPDO_N > 0
 
 TEST_CASE("OD flags: objects of a scanner list have the flags of the TPDO that sends them [301:7.2.3]") {
   MpdoTable table;

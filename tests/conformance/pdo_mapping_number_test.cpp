@@ -40,7 +40,7 @@ TEST_CASE("PDO mapping: a number above the possible one is refused with 0604 004
 
 #endif
 
-#if !USE_MPDO
+#if CO_MPDO_N == 0
 
 TEST_CASE("PDO mapping: FEh and FFh (MPDO) are refused with 0604 0042h by a node without MPDOs [M7]") {
   PdoNode node(eight_bytes());

@@ -119,7 +119,7 @@ const Constant wrong_mappings[] = {
     {0, 2, {0x22010108}},
     {0, 200, {0x22010108, 0x22010208}},
     {0, 0xFE, {0x22010108}},
-#if !USE_MPDO
+#if CO_MPDO_N == 0
     {0, 0xFF, {0x22010108}},
 #endif
     {0, 9, nine},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Example of docs/cookbook.md: multiplex PDOs with source addressing (USE_MPDO).
+// Example of docs/cookbook.md: multiplex PDOs with source addressing (CO_MPDO_N).
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

@@ -2,7 +2,7 @@
 // expect to compile
 // Mappings without an object that lacks flag P: entries above sub 0, entries of multiplex PDOs, empty ones, static data
 // types, and mappings in variables.
-#define USE_MPDO 1
+#define CO_MPDO_N 16
 #include "lexican/dictionary.hpp"
 
 std::uint8_t mappable;

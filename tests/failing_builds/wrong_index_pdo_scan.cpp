@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'1', 'F', 'D', '0'>, co::Sub<'0', '1'>
 // The object dispatching list is none of scanned objects.
-#define USE_MPDO 1
+#define CO_MPDO_N 16
 #include "lexican/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {

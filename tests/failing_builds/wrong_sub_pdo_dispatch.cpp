@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'1', 'F', 'D', '0'>, co::Sub<'0', '0'>
 // Sub 0 of the object dispatching list is the number of its entries.
-#define USE_MPDO 1
+#define CO_MPDO_N 16
 #include "lexican/dictionary.hpp"
 
 unsigned long long entry;

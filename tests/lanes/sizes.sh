@@ -145,8 +145,7 @@ size_of_things() {
     thing "8 errors of the application" -DCO_EMCY_N=32 -- -DCO_EMCY_N=160 &&
     thing "EMCY message that waits" -DCO_EMCY_QUEUE_N=4 -- -DCO_EMCY_QUEUE_N=20 &&
     thing "place in the EMCY history, with its entry and value" -DENTRIES=4 -DVALUES=4 -- -DENTRIES=20 -DVALUES=20 &&
-    thing "object that the scanner list names" -DUSE_MPDO=1 -DCO_MPDO_SCAN_N=4 -- -DUSE_MPDO=1 -DCO_MPDO_SCAN_N=20 &&
-    thing "entry of the dispatching list" -DUSE_MPDO=1 -DCO_MPDO_DISPATCH_N=4 -- -DUSE_MPDO=1 -DCO_MPDO_DISPATCH_N=20 &&
+    thing "object of the scanner list and entry of the dispatching list" -DCO_MPDO_N=4 -- -DCO_MPDO_N=20 &&
     thing "object of error status bits, with its entry" -DERROR_BITS=4 -DENTRIES=4 -- -DERROR_BITS=20 -DENTRIES=20 &&
     thing "constant domain (1021h), with its entry" -DCONSTANT_DOMAINS=4 -DENTRIES=4 -- -DCONSTANT_DOMAINS=20 -DENTRIES=20 &&
     thing "OS command (1023h) with 5 entries, without its buffers" -DCOMMANDS=4 -DENTRIES=20 -- -DCOMMANDS=20 -DENTRIES=100 &&

@@ -21,7 +21,7 @@ uint8_t module_emcy[SIZE_OF(Emcy)];
 #define EMCY 0
 #endif
 
-#if USE_MPDO
+#if CO_MPDO_N > 0
 #define MPDO SIZE_OF(Mpdo)
 #else
 #define MPDO 0

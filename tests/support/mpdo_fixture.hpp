@@ -12,7 +12,7 @@
 
 #include "sync_fixture.hpp"
 
-#if USE_MPDO
+#if CO_MPDO_N > 0
 
 namespace test {
 

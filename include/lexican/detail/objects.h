@@ -60,8 +60,8 @@
   X(pdo_mapping,           CO_TPDO_MAP,         COTPdoMap,         0x1600, 0x17FF, 1, 64,  4, DT,  unsigned_integer, value,    always) \
   X(pdo_start,             CO_TPDO_START,       COTPdoStart,       0x1800, 0x19FF, 6, 6,   1, D,   unsigned_integer, value,    always) \
   X(nmt_startup,           CO_TNMT_STARTUP,     COTNmtStartup,     0x1F80, 0x1F80, 0, 0,   4, D,   unsigned_integer, value,    always) \
-  X(pdo_scan,              CO_TPDO_SCAN,        COTPdoScan,        0x1FA0, 0x1FCF, 1, 254, 4, D,   unsigned_integer, value,    USE_MPDO) \
-  X(pdo_dispatch,          CO_TPDO_DISPATCH,    COTPdoDispatch,    0x1FD0, 0x1FFF, 1, 254, 8, D,   unsigned_integer, value,    USE_MPDO) \
+  X(pdo_scan,              CO_TPDO_SCAN,        COTPdoScan,        0x1FA0, 0x1FCF, 1, 254, 4, D,   unsigned_integer, value,    CO_MPDO_N) \
+  X(pdo_dispatch,          CO_TPDO_DISPATCH,    COTPdoDispatch,    0x1FD0, 0x1FFF, 1, 254, 8, D,   unsigned_integer, value,    CO_MPDO_N) \
   X(recorder_size,         CO_TREC_CONFIG,      COTRecConfig,      0x2000, 0x5FFF, 1, 1,   4, _,   unsigned_integer, none,     USE_RECORDER) \
   X(recorder_axis,         CO_TREC_CONFIG,      COTRecConfig,      0x2000, 0x5FFF, 2, 2,   1, _,   unsigned_integer, none,     USE_RECORDER) \
   X(recorder_colours,      CO_TREC_CONFIG,      COTRecConfig,      0x2000, 0x5FFF, 4, 5,   4, _,   unsigned_integer, none,     USE_RECORDER) \

@@ -22,7 +22,7 @@
   X(sync, USE_SYNC, 1, 0, CO_SYNC_ALLOWED)                             \
   X(time, USE_TIME, 1, 0, CO_TIME_ALLOWED)                             \
   X(emcy, USE_EMCY, 0, 0, CO_EMCY_ALLOWED)                             \
-  X(mpdo, USE_MPDO, 0, (CO_TPDO_N > 0 ? 1 : 0), CO_PDO_ALLOWED)        \
+  X(mpdo, CO_MPDO_N, 0, (CO_TPDO_N > 0 ? 1 : 0), CO_PDO_ALLOWED)       \
   X(pdo, CO_RPDO_N + CO_TPDO_N, 0, 0, CO_PDO_ALLOWED)                  \
   X(tpdo, CO_TPDO_N, (USE_PDO_RTR ? CO_TPDO_N : 0), 0, CO_PDO_ALLOWED) \
   X(rpdo, CO_RPDO_N, CO_RPDO_N, 0, CO_PDO_ALLOWED)                     \

@@ -12,7 +12,7 @@
 #include "wire/cob_id.hpp"
 #include "wire/mpdo.hpp"
 
-#if USE_MPDO && CO_RPDO_N > 0
+#if CO_MPDO_N > 0 && CO_RPDO_N > 0
 
 namespace co::mpdo {
 namespace {
@@ -34,7 +34,7 @@ bool is_addressed(const CO_NODE& node, const CO_PDO_MAP& map, uint32_t low) {
 
 // Returns the object that the dispatching list assigns to an object of the producer; null: none.
 CO_OBJ* dispatch(CO_NODE& node, uint32_t producer) {
-  CO_ASSERT(node.Mpdo.BlockNum <= CO_MPDO_DISPATCH_N);
+  CO_ASSERT(node.Mpdo.BlockNum <= CO_MPDO_N);
   for (uint16_t n = 0; n < node.Mpdo.BlockNum; ++n) {
     const CO_MPDO_BLOCK& block = node.Mpdo.Block[n];
     const uint32_t distance = producer - block.Producer;

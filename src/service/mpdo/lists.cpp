@@ -6,7 +6,7 @@
 #include "dictionary/obj.hpp"
 #include "wire/mpdo.hpp"
 
-#if USE_MPDO
+#if CO_MPDO_N > 0
 
 namespace co::mpdo {
 namespace {
@@ -69,7 +69,7 @@ CO_ERR add(CO_NODE& node, uint32_t entry) {
   if (err != CO_ERR_NONE) {
     return err;
   }
-  if (num > CO_MPDO_SCAN_N - mpdo.ScanNum) {
+  if (num > CO_MPDO_N - mpdo.ScanNum) {
     return CO_ERR_OBJ_MAP_LEN;
   }
   uint16_t first = entry_of(node, wire::scan_key(entry));
@@ -97,7 +97,7 @@ CO_ERR add(CO_NODE& node, uint64_t entry) {
   if (err != CO_ERR_NONE) {
     return err;
   }
-  if (mpdo.BlockNum == CO_MPDO_DISPATCH_N) {
+  if (mpdo.BlockNum == CO_MPDO_N) {
     return CO_ERR_OBJ_MAP_LEN;
   }
   mpdo.Block[mpdo.BlockNum++] = {wire::dispatch_producer(entry), entry_of(node, wire::dispatch_key(entry)),

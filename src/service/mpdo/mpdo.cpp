@@ -10,7 +10,7 @@
 #include "service/pdo/multiplex.hpp"
 #include "wire/mpdo.hpp"
 
-#if USE_MPDO
+#if CO_MPDO_N > 0
 
 namespace co::mpdo {
 namespace {

@@ -10,7 +10,7 @@
 #include "service/pdo/tpdo.hpp"
 #include "wire/mpdo.hpp"
 
-#if USE_MPDO && CO_TPDO_N > 0
+#if CO_MPDO_N > 0 && CO_TPDO_N > 0
 
 namespace co::mpdo {
 namespace {

@@ -4,7 +4,7 @@
 #include "service/mpdo/lists.hpp"
 #include "service/pdo/multiplex.hpp"
 
-#if USE_MPDO
+#if CO_MPDO_N > 0
 
 namespace co::mpdo {
 namespace {
@@ -21,7 +21,7 @@ void clear(uint8_t* bits, uint16_t place) {
 
 bool mark(CO_NODE& node, uint16_t entry) {
   CO_MPDO& mpdo = node.Mpdo;
-  CO_ASSERT(mpdo.ScanNum <= CO_MPDO_SCAN_N);
+  CO_ASSERT(mpdo.ScanNum <= CO_MPDO_N);
   bool found = false;
   for (uint16_t place = 0; place < mpdo.ScanNum; ++place) {
     if (mpdo.Scan[place] == entry) {
@@ -34,7 +34,7 @@ bool mark(CO_NODE& node, uint16_t entry) {
 
 void mark_all(CO_PDO& pdo) {
   CO_MPDO& mpdo = pdo.Node->Mpdo;
-  CO_ASSERT(mpdo.ScanNum <= CO_MPDO_SCAN_N);
+  CO_ASSERT(mpdo.ScanNum <= CO_MPDO_N);
   for (uint16_t place = 0; is_sam(pdo.Map) && place < mpdo.ScanNum; ++place) {
     put(mpdo.Waiting, place);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of the service mpdo that the service pdo calls where multiplex PDOs differ from other PDOs. With USE_MPDO 0
-// no PDO is a multiplex PDO.
+// Functions of the service mpdo that the service pdo calls where multiplex PDOs differ from other PDOs. With CO_MPDO_N
+// 0 no PDO is a multiplex PDO.
 #pragma once
 
 #include "co_core.h"
@@ -18,7 +18,7 @@ struct Transferred {
   unsigned num;
 };
 
-#if USE_MPDO
+#if CO_MPDO_N > 0
 
 // Return whether the PDO is a multiplex PDO in source or destination address mode, or in any of them (is_mpdo()).
 [[nodiscard]] inline bool is_sam(const CO_PDO_MAP& map) { return map.Mode == sam; }

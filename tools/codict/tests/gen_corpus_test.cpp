@@ -29,7 +29,7 @@ namespace {
 // Configuration with everything that a description can require.
 const std::string options =
     " -Wall -Wextra -Wpedantic -Wconversion -Werror -fsyntax-only -DCO_RPDO_N=512 -DCO_TPDO_N=512 -DCO_HBCONS_N=127"
-    " -DCO_SSDO_N=128 -DCO_CSDO_N=100 -DCO_EMCY_CONS_N=127 -DUSE_TIME=1 -DUSE_MPDO=1 -DUSE_PDO_BITS=1"
+    " -DCO_SSDO_N=128 -DCO_CSDO_N=100 -DCO_EMCY_CONS_N=127 -DUSE_TIME=1 -DCO_MPDO_N=16 -DUSE_PDO_BITS=1"
     " -I" LEXICAN_SOURCE_DIR "/include -I" LEXICAN_SOURCE_DIR "/config ";
 
 // Returns the first device of a file, nothing if it describes none.
