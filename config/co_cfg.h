@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_cfg.h
-/// Settings of the stack, with meaning, range and cost; the values below are the defaults. Each value can be defined as
-/// a compiler definition (-D), by a preset (CO_CFG_PRESET names a header of config/presets), or by a co_cfg.h of the
-/// application that is found first. A definition has priority over the preset. Library and application need the same
-/// values: the linker refuses different ones (lexican/detail/configuration.h).
+/// Settings of the stack, with meaning and range; the values below are the defaults. docs/sizes.md has the bytes that
+/// each costs. A value is a number, or an expression in parentheses. Each value can be defined as a compiler definition
+/// (-D), by a preset (CO_CFG_PRESET names a header of config/presets), or by a co_cfg.h of the application that is
+/// found first. A definition has priority over the preset. Library and application need the same values: the linker
+/// refuses different ones (lexican/detail/configuration.h).
 #ifndef CO_CFG_H_
 #define CO_CFG_H_
 
@@ -11,8 +12,7 @@
 #include CO_CFG_PRESET
 #endif
 
-/// SDO servers (1200h, 1201h, …): 1…128. Each costs 66 bytes of RAM (32-bit CPU),
-/// besides its part of CO_NODE_SPEC.SdoBuf.
+/// SDO servers (1200h, 1201h, …): 1…128. Each has a part of CO_NODE_SPEC.SdoBuf.
 #ifndef CO_SSDO_N
 #define CO_SSDO_N 1
 #endif
@@ -23,43 +23,38 @@
 /// Check of the dictionary at run time, by CODictInit() and the Init functions of types: 0 or 1. Instead, C++ tables
 /// can be checked by the compiler (CO_OD_CHECK()), C tables by a test build with 1. With 0 a wrong table is used
 /// unchecked: an entry in a wrong position may not be found or have no effect, and numbers of services beyond the
-/// configuration access no memory; but each Type must be set, and Data must be null or as the type requires. 0 saves
-/// 1.6 KB of flash (Cortex-M0+, -Os) and 4 bytes of RAM.
+/// configuration access no memory; but each Type must be set, and Data must be null or as the type requires.
 #ifndef USE_DICT_CHECK
 #define USE_DICT_CHECK 1
 #endif
 
-/// Checks of the stack's own invariants (co_assert.h), for tests and to find memory errors of the
-/// application: 0 or 1. With 1 a violated one calls COAssertFailed(). Only the library depends on it. 1 costs
-/// 2 KB of flash (Cortex-M0+, -Os, preset slave).
+/// Checks of the stack's own invariants (co_assert.h), for tests and to find memory errors of the application: 0 or 1.
+/// With 1 a violated one calls COAssertFailed(). Only the library depends on it.
 #ifndef USE_ASSERT
 #define USE_ASSERT 0
 #endif
 
 /// Callbacks of each node in a table (CO_NODE_EXT.Callbacks, co_callbacks.h): 0 or 1. With 0 only the C functions that
-/// are the same for all nodes are called, and 0 saves 500 bytes of flash
-/// (Cortex-M0+, -Os, preset slave).
+/// are the same for all nodes are called.
 #ifndef USE_CALLBACKS
 #define USE_CALLBACKS 1
 #endif
 
 /// Optimisations for speed: 0 or 1. With 0 the dictionary and the routes of frames are searched linearly, and every
 /// object of a PDO, of an expedited SDO transfer and of an SDO segment is read and written by the functions of its
-/// type; a driver with Filter function then needs 4 bytes of the CPU's stack for each receiver. 0 saves 2.2 KB of flash
-/// (Cortex-M0+, -Os).
+/// type; a driver with Filter function then needs 4 bytes of the CPU's stack for each receiver.
 #ifndef USE_FAST_PATHS
 #define USE_FAST_PATHS 1
 #endif
 
 /// Types with functions for the begin and the end of an SDO transfer (CO_OBJ_TYPE_EX), and uploads of objects whose
 /// length is not known beforehand (CO_OBJ_SIZE_UNKNOWN): 0 or 1. With 0, COObjTypeExReset() does not exist, and an
-/// upload of unknown length is refused (0800 0020h). 0 saves 400 bytes of flash (Cortex-M0+, -Os).
+/// upload of unknown length is refused (0800 0020h).
 #ifndef USE_OBJ_EX
 #define USE_OBJ_EX 1
 #endif
 
-/// OD access interface in the style of CANopenNode (co_od.h): 0 or 1. Objects that do not use it cost nothing; each
-/// object in the index of OD_init() costs 12 bytes of RAM (32-bit CPU).
+/// OD access interface in the style of CANopenNode (co_od.h): 0 or 1. Objects that do not use it cost nothing.
 #ifndef USE_OD
 #define USE_OD 0
 #endif
@@ -71,7 +66,7 @@
 #ifndef USE_CSDO
 #define USE_CSDO 1
 #endif
-/// Number of SDO clients: 1…100. Each costs 86 bytes of RAM (32-bit CPU) with USE_CSDO.
+/// Number of SDO clients: 1…100.
 #ifndef CO_CSDO_N
 #define CO_CSDO_N 1
 #endif
@@ -79,14 +74,14 @@
 #error "CO_CSDO_N: 1...100 SDO clients"
 #endif
 
-/// Block transfer of servers and clients: 0 or 1. 0 saves 3.5 KB of flash (Cortex-M0+, -Os) where both are used.
+/// Block transfer of servers and clients: 0 or 1.
 #ifndef USE_SDO_BLOCK
 #define USE_SDO_BLOCK 1
 #endif
 
 /// Minimum number of bytes for which SDO clients request a block transfer: 5…256; 0: they transfer objects of any
-/// length in segments, which saves 1.8 KB of flash (Cortex-M0+, -Os). Objects shorter than the default need fewer
-/// frames in segments. Without USE_SDO_BLOCK 0 by default.
+/// length in segments. Objects shorter than the default need fewer frames in segments. Without USE_SDO_BLOCK 0 by
+/// default.
 #ifndef CO_CSDO_BLOCK
 #if USE_SDO_BLOCK
 #define CO_CSDO_BLOCK 29
@@ -105,15 +100,14 @@
 #endif
 
 /// Access of SDO clients to the dictionary of their own node, if sub 3 of 1280h… is its node-ID: 0 or 1. With 0 such a
-/// client is not configured: COCSdoFind() returns null. 0 saves 800 bytes of flash (Cortex-M0+, -Os).
+/// client is not configured: COCSdoFind() returns null.
 #ifndef USE_CSDO_OWN
 #define USE_CSDO_OWN 1
 #endif
 
 /// Time in ms after which the server ends a transfer whose client no longer responds: 0 (never)…60000. It is not ended
 /// before 7/8 of that time. The eighths are rounded up to ticks of the timer driver. With 0, the server also does not
-/// request missing segments of a block download when its client stops sending, and 140 bytes of flash are saved
-/// (Cortex-M0+, -Os).
+/// request missing segments of a block download when its client stops sending.
 #ifndef CO_SDO_TIMEOUT
 #define CO_SDO_TIMEOUT 2000
 #endif
@@ -121,11 +115,11 @@
 #error "CO_SDO_TIMEOUT: 0...60000 ms"
 #endif
 
-/// RPDOs (1400h…): 0…512. Each costs 78 bytes of RAM (32-bit CPU).
+/// RPDOs (1400h…): 0…512.
 #ifndef CO_RPDO_N
 #define CO_RPDO_N 4
 #endif
-/// TPDOs (1800h…): 0…512. Each costs 78 bytes of RAM (32-bit CPU).
+/// TPDOs (1800h…): 0…512.
 #ifndef CO_TPDO_N
 #define CO_TPDO_N 4
 #endif
@@ -133,21 +127,19 @@
 #error "CO_RPDO_N, CO_TPDO_N: 0...512 PDOs"
 #endif
 
-/// Mapping of single bits: 0 or 1. 1: BOOLEAN takes one bit of a PDO, and up to 64 objects fit into one; each PDO costs
-/// 176 bytes of RAM more.
+/// Mapping of single bits: 0 or 1. 1: BOOLEAN takes one bit of a PDO, and up to 64 objects fit into one.
 #ifndef USE_PDO_BITS
 #define USE_PDO_BITS 0
 #endif
 
-/// Remote requests for TPDOs, and their transmission types 252 and 253: 0 or 1. Each TPDO costs 6 bytes of RAM more.
+/// Remote requests for TPDOs, and their transmission types 252 and 253: 0 or 1.
 #ifndef USE_PDO_RTR
 #define USE_PDO_RTR 1
 #endif
 
 /// Multiplex PDOs with destination and source addressing (FFh and FEh in sub 0 of 1600h…, 1A00h…; 1FA0h…, 1FD0h…):
 /// maximum number of objects in the object scanner list, including all objects of blocks, and of entries in the object
-/// dispatching list, 1…1024; 0: none. They cost 2.9 KB of flash, with both lists 4.2 KB (Cortex-M0+, -Os), 12 bytes of
-/// RAM, 4 in each PDO, and 10.25 for each object and entry.
+/// dispatching list, 1…1024; 0: none.
 #ifndef CO_MPDO_N
 #define CO_MPDO_N 0
 #endif
@@ -158,13 +150,13 @@
 #error "USE_MPDO, CO_MPDO_SCAN_N and CO_MPDO_DISPATCH_N were replaced: CO_MPDO_N is the length of both lists"
 #endif
 
-/// Transmission of event-driven TPDOs (types 254 and 255) when the node enters Operational: 0 or 1. No cost.
+/// Transmission of event-driven TPDOs (types 254 and 255) when the node enters Operational: 0 or 1.
 #ifndef CO_TPDO_ON_START
 #define CO_TPDO_ON_START 0
 #endif
 
 /// Use of CAN-IDs that CiA 301 reserves (7.3.5) for other services in PDO, SYNC, TIME, EMCY and SDO: 0 or 1. 1 is for
-/// devices in networks that do not follow the standard's identifier allocation. No cost.
+/// devices in networks that do not follow the standard's identifier allocation.
 #ifndef CO_RESTRICTED_IDS
 #define CO_RESTRICTED_IDS 0
 #endif
@@ -178,7 +170,7 @@
 /// refused (0609 0032h). If a table or a stored group contains a shorter period, no SYNC is produced and the node's
 /// error is CO_ERR_OBJ_RANGE_LOW. Without this limit one SDO write could occupy the CPU with timer interrupts, and the
 /// bus with SYNC. 500 µs is half the shortest cycle that drives commonly use, and ten times the length of a SYNC frame
-/// at 1 Mbit/s. The check costs 80 bytes of flash (Cortex-M0+, -Os).
+/// at 1 Mbit/s.
 #ifndef CO_SYNC_PERIOD_MIN
 #define CO_SYNC_PERIOD_MIN 500
 #endif
@@ -186,19 +178,17 @@
 #error "CO_SYNC_PERIOD_MIN: 1...1000000 us"
 #endif
 
-/// TIME consumer and producer (1012h), and a running clock: 0 or 1. 1 costs 76 bytes of RAM (32-bit CPU) and 1.4 KB of
-/// flash (Cortex-M0+, -Os).
+/// TIME consumer and producer (1012h), and a running clock: 0 or 1.
 #ifndef USE_TIME
 #define USE_TIME 0
 #endif
 
-/// Global fail-safe command (1300h, co_gfc.h): 0 or 1. 1 costs 350 bytes of flash (Cortex-M0+, -Os) and 6 bytes of RAM.
+/// Global fail-safe command (1300h, co_gfc.h): 0 or 1.
 #ifndef USE_GFC
 #define USE_GFC 0
 #endif
 
-/// Safety-relevant data objects, SRDOs (1301h…, co_srdo.h): 0…64. They cost 5.2 KB of flash (Cortex-M0+, -Os), and each
-/// costs 124 bytes of RAM (32-bit CPU).
+/// Safety-relevant data objects, SRDOs (1301h…, co_srdo.h): 0…64.
 #ifndef CO_SRDO_N
 #define CO_SRDO_N 0
 #endif
@@ -207,7 +197,7 @@
 #endif
 
 /// Shortest time between the two frames of an SRDO that is sent, in µs, rounded up to ticks of the timer driver:
-/// 0…100000; 0: one after the other without delay. The refresh time of each SRDO must be longer. No cost.
+/// 0…100000; 0: one after the other without delay. The refresh time of each SRDO must be longer.
 #ifndef CO_SRDO_GAP
 #define CO_SRDO_GAP 0
 #endif
@@ -215,9 +205,8 @@
 #error "CO_SRDO_GAP: 0...100000 us"
 #endif
 
-/// Recorder of objects with time and trigger, and its plot as CSV or numbers (co_recorder.h): 0 or 1. 1 costs
-/// 3.3 KB of flash (Cortex-M0+, -Os) where all its types are used, and 20 bytes of RAM (32-bit CPU); each recorder
-/// costs 156 bytes of RAM and 8 bytes for each point, which the application provides.
+/// Recorder of objects with time and trigger, and its plot as CSV or numbers (co_recorder.h): 0 or 1. The application
+/// provides the memory of each recorder and its points.
 #ifndef USE_RECORDER
 #define USE_RECORDER 0
 #endif
@@ -230,7 +219,7 @@
 #define USE_EMCY 1
 #endif
 
-/// Maximum number of errors in the application's error table (COEmcySet()): 1…256. Eight errors cost a byte of RAM.
+/// Maximum number of errors in the application's error table (COEmcySet()): 1…256.
 #ifndef CO_EMCY_N
 #define CO_EMCY_N 32
 #endif
@@ -239,8 +228,7 @@
 #endif
 
 /// Length of the queue of EMCY messages that wait for the inhibit time (1015h) or for the transmit queue: 0…255. With
-/// 0, messages are sent at once, 1015h has no effect, and a message that finds the transmit queue full is lost. 0 saves
-/// 380 bytes of flash (Cortex-M0+, -Os); each message costs 8 bytes of RAM.
+/// 0, messages are sent at once, 1015h has no effect, and a message that finds the transmit queue full is lost.
 #ifndef CO_EMCY_QUEUE_N
 #define CO_EMCY_QUEUE_N 4
 #endif
@@ -251,7 +239,7 @@
 #error "USE_EMCY_QUEUE was replaced: CO_EMCY_QUEUE_N 0 omits the queue of EMCY messages"
 #endif
 
-/// EMCY consumer: the highest sub-index (node-ID) of 1028h, 0…127. Each costs 6 bytes of RAM.
+/// EMCY consumer: the highest sub-index (node-ID) of 1028h, 0…127.
 #ifndef CO_EMCY_CONS_N
 #define CO_EMCY_CONS_N 0
 #endif
@@ -259,7 +247,7 @@
 #error "CO_EMCY_CONS_N: 0...127 nodes"
 #endif
 
-/// Heartbeat consumers: the highest sub-index of 1016h, 0…127. Each costs 18 bytes of RAM, besides its entry.
+/// Heartbeat consumers: the highest sub-index of 1016h, 0…127.
 #ifndef CO_HBCONS_N
 #define CO_HBCONS_N 8
 #endif
@@ -277,7 +265,7 @@
 #define USE_NMT_MASTER 0
 #endif
 
-/// Status LEDs of CiA 303-3: 0 or 1. 1 costs 36 bytes of RAM (32-bit CPU) and 1.2 KB of flash (Cortex-M0+, -Os).
+/// Status LEDs of CiA 303-3: 0 or 1.
 #ifndef USE_LED
 #define USE_LED 0
 #endif
@@ -287,21 +275,21 @@
 #define USE_LSS 1
 #endif
 
-/// LSS master (co_lss_master.h): 0 or 1. 1 costs 112 bytes of RAM (32-bit CPU) and 1.8 KB of flash (Cortex-M0+, -Os).
+/// LSS master (co_lss_master.h): 0 or 1.
 #ifndef USE_LSS_MASTER
 #define USE_LSS_MASTER 0
 #endif
 
 /// Services of the LSS slave in Operational: 0 or 1. According to CiA 305, LSS is independent of the NMT state (1).
 /// With 0 all LSS frames are ignored in Operational; a node in Pre-operational or Stopped, or without node-ID, can
-/// still be configured. 0 costs 4 bytes of flash.
+/// still be configured.
 #ifndef CO_LSS_IN_OPERATIONAL
 #define CO_LSS_IN_OPERATIONAL 1
 #endif
 
 /// Access hook: the functions AccessSdo, AccessNmt and AccessLss in CO_CALLBACKS (co_callbacks.h) permit or refuse SDO
 /// transfers, NMT commands and LSS services of the network: 0 or 1. With 0 these members do not exist, and nothing is
-/// called. 1 costs 530 bytes of flash (Cortex-M0+, -Os), or 230 where USE_LSS is 0.
+/// called.
 #ifndef USE_ACCESS_HOOK
 #define USE_ACCESS_HOOK 0
 #endif
@@ -326,8 +314,7 @@
 /// Budget of stores that the bus can cause in a row, refilled by one each minute: 0…255; 0: no limit. A "save" (1010h),
 /// a "load" (1011h) or an LSS store that writes the memory uses one, and so does a round of autonomous stores. When the
 /// budget is used up, "save" and "load" are aborted with 0800 0022h, the response to LSS store is error 255, and
-/// autonomous groups are stored later. Limits the wear of a flash memory (docs/storage.md). Values other than 0 cost 28
-/// bytes of RAM (32-bit CPU) and 310 bytes of flash (Cortex-M0+, -Os).
+/// autonomous groups are stored later. Limits the wear of a flash memory (docs/storage.md).
 #ifndef CO_PARA_BUDGET
 #define CO_PARA_BUDGET 32
 #endif
@@ -347,7 +334,7 @@
 #endif
 
 /// Use of a node by several threads under the node lock, one of them for SYNC and PDOs only (CO_NODE_EXT.Enter,
-/// CONodeRealTime()): 0 or 1. 1 costs 1.4 KB of flash (Cortex-M0+, -Os) and 4 bytes of RAM.
+/// CONodeRealTime()): 0 or 1.
 #ifndef USE_REAL_TIME
 #define USE_REAL_TIME 0
 #endif
@@ -355,8 +342,7 @@
 #error "CO_STORE_BUFFER: a multiple of 8 with USE_REAL_TIME, or stored numbers may be partially written"
 #endif
 
-/// Length of the transmit queue inside the node, in frames: 1…1000. Each costs 16 bytes of RAM. CO_NODE_EXT.TxQueue can
-/// provide a longer one.
+/// Length of the transmit queue inside the node, in frames: 1…1000. CO_NODE_EXT.TxQueue can provide a longer one.
 #ifndef CO_TX_QUEUE_N
 #define CO_TX_QUEUE_N 8
 #endif
@@ -364,7 +350,7 @@
 #error "CO_TX_QUEUE_N: 1...1000 frames"
 #endif
 
-/// Segments of 7 bytes in the buffer of each SDO server (CO_NODE_SPEC.SdoBuf): 1…127. Each costs 7 bytes of RAM there.
+/// Segments of 7 bytes in the buffer of each SDO server (CO_NODE_SPEC.SdoBuf): 1…127.
 #ifndef CO_SDO_BUF_SEG
 #define CO_SDO_BUF_SEG 127
 #endif
@@ -373,7 +359,7 @@
 #endif
 
 /// Maximum number of segments of block transfers that one call of CONodeProcess() or COTmrProcess() sends, by servers
-/// and clients together: 1…127. 32 segments take 4 ms at 1 Mbit/s. No cost.
+/// and clients together: 1…127. 32 segments take 4 ms at 1 Mbit/s.
 #ifndef CO_SDO_BLOCK_PACE
 #define CO_SDO_BLOCK_PACE 32
 #endif
