@@ -42,6 +42,4 @@ uint32_t CONodeGetErrKey(const CO_NODE* node) { return node == nullptr ? 0 : CO_
 }  // extern "C"
 
 // Default callback of CO_ASSERT: a weak symbol, which a definition of the application replaces.
-#if USE_ASSERT
 extern "C" WEAK void COAssertFailed(const char*, const char*, int) { CONodeFatalError(); }
-#endif
