@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the rest of the stack knows of a part: the functions that it has for the events of a node. Parts do not call
+// A part of the stack, as the rest of the stack knows it: its functions for the events of a node. Parts do not call
 // each other.
 #pragma once
 
