@@ -8,6 +8,7 @@
 
 #include "base/part.hpp"
 #include "base/routes.hpp"
+#include "extra/recorder/recorder.hpp"
 #include "node/mode.hpp"
 #include "service/emcy/emcy.hpp"
 #include "service/gfc/gfc.hpp"
@@ -19,7 +20,6 @@
 #include "service/mpdo/mpdo.hpp"
 #include "service/nmt/error_behaviour.hpp"
 #include "service/pdo/pdo.hpp"
-#include "extra/recorder/recorder.hpp"
 #include "service/sdo_client/sdo_client.hpp"
 #include "service/sdo_server/sdo_server.hpp"
 #include "service/srdo/srdo.hpp"

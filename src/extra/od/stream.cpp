@@ -3,9 +3,9 @@
 #include "dictionary/types/stream.hpp"
 #include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
-#include "hal/port.hpp"
 #include "extra/od/transfer.hpp"
 #include "extra/od/types.hpp"
+#include "hal/port.hpp"
 #include "wire/bytes.hpp"
 
 #if USE_OD

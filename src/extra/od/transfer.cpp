@@ -6,8 +6,8 @@
 #include "co_assert.h"
 #include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
-#include "hal/port.hpp"
 #include "extra/od/properties.hpp"
+#include "hal/port.hpp"
 
 namespace co::od {
 namespace {

@@ -2,8 +2,8 @@
 // Common functions of the types of extensible entries.
 #pragma once
 
-#include "extra/od/properties.hpp"
 #include "extra/od/index.hpp"
+#include "extra/od/properties.hpp"
 #include "extra/od/result.hpp"
 
 #if USE_OD

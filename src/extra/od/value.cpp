@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access to variables: lookup, extensions, and reading and writing of whole values (co_od.h).
 #include "dictionary/dict.hpp"
-#include "extra/od/properties.hpp"
 #include "extra/od/index.hpp"
+#include "extra/od/properties.hpp"
 #include "extra/od/transfer.hpp"
 
 #if USE_OD
