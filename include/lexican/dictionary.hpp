@@ -55,12 +55,12 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_time_of_day.h"
 
 /// Checks at compile time that \a od, a constexpr array of CO_OBJ with static storage, is a dictionary without faults.
-/// For namespace and function scope. Mandatory objects must exist, frequent objects of CiA 301 must have the right
-/// length, and constant mappings of PDOs that are not switched off must name objects with flag P of the same length,
-/// together at most 64 bits. Rights of mapped objects and static data types are not checked. Entries with types of the
-/// application are checked only for the rules of all types. An object that constant mappings of an SRDO and of an
-/// ordinary PDO contain causes a warning
-/// (-Wdeprecated-declarations, omitted if this header is a system header).
+/// For namespace and function scope. Mandatory objects must exist, frequent objects of CiA 301 and those for which the
+/// library has a type must have the right length, and constant mappings of PDOs that are not switched off must name
+/// objects with flag P of the same length, together at most 64 bits. Rights of mapped objects and static data types are
+/// not checked. Entries with types of the application are checked only for the rules of all types. An object that
+/// constant mappings of an SRDO and of an ordinary PDO contain causes a warning (-Wdeprecated-declarations, omitted if
+/// this header is a system header).
 #define CO_OD_CHECK(od) static_assert(::co::dictionary::is_proved<od, true>(), "see Dictionary<...> above")
 
 /// Like CO_OD_CHECK(), for a part of a table, or one that codict has generated: mandatory objects, the lengths of
@@ -284,7 +284,7 @@ constexpr CO_DICT_FAULT check_unknown([[maybe_unused]] const CO_OBJ_TYPE* type, 
   return CO_DICT_OK;
 }
 
-/// Frequent objects of CiA 301 whose number has a certain width, whatever the type of the entry. [CiA 301, 7.5.2]
+/// Frequent objects of CiA 301 with plain types, whose number has a certain width. [CiA 301, 7.5.2]
 struct Standard {
   std::uint16_t first;     ///< first index
   std::uint16_t last;      ///< last index
@@ -293,18 +293,12 @@ struct Standard {
   std::uint8_t width;      ///< bytes of the value
 };
 
-/// The frequent objects. The types of others are checked only if the library has a type for them.
+/// The frequent objects.
 inline constexpr Standard standard[] = {
-    {0x1000, 0x1000, 0, 0, 4},   {0x1001, 0x1001, 0, 0, 1},   {0x1002, 0x1002, 0, 0, 4}, {0x1003, 0x1003, 0, 0, 1},
-    {0x1003, 0x1003, 1, 254, 4}, {0x1005, 0x1007, 0, 0, 4},   {0x100C, 0x100C, 0, 0, 2}, {0x100D, 0x100D, 0, 0, 1},
-    {0x1010, 0x1011, 0, 0, 1},   {0x1010, 0x1011, 1, 127, 4}, {0x1012, 0x1014, 0, 0, 4}, {0x1015, 0x1015, 0, 0, 2},
-    {0x1016, 0x1016, 0, 0, 1},   {0x1016, 0x1016, 1, 127, 4}, {0x1017, 0x1017, 0, 0, 2}, {0x1018, 0x1018, 0, 0, 1},
-    {0x1018, 0x1018, 1, 4, 4},   {0x1019, 0x1019, 0, 0, 1},   {0x1020, 0x1020, 1, 2, 4}, {0x1028, 0x1028, 1, 127, 4},
-    {0x1029, 0x1029, 0, 254, 1}, {0x1200, 0x12FF, 0, 0, 1},   {0x1200, 0x12FF, 1, 2, 4}, {0x1200, 0x12FF, 3, 3, 1},
-    {0x1400, 0x15FF, 0, 0, 1},   {0x1400, 0x15FF, 1, 1, 4},   {0x1400, 0x15FF, 2, 2, 1}, {0x1400, 0x15FF, 5, 5, 2},
-    {0x1600, 0x17FF, 0, 0, 1},   {0x1600, 0x17FF, 1, 64, 4},  {0x1800, 0x19FF, 0, 0, 1}, {0x1800, 0x19FF, 1, 1, 4},
-    {0x1800, 0x19FF, 2, 2, 1},   {0x1800, 0x19FF, 3, 3, 2},   {0x1800, 0x19FF, 5, 5, 2}, {0x1800, 0x19FF, 6, 6, 1},
-    {0x1A00, 0x1BFF, 0, 0, 1},   {0x1A00, 0x1BFF, 1, 64, 4},  {0x1F80, 0x1F80, 0, 0, 4},
+    {0x1000, 0x1000, 0, 0, 4}, {0x1001, 0x1001, 0, 0, 1}, {0x1002, 0x1002, 0, 0, 4}, {0x100C, 0x100C, 0, 0, 2},
+    {0x100D, 0x100D, 0, 0, 1}, {0x1013, 0x1013, 0, 0, 4}, {0x1015, 0x1015, 0, 0, 2}, {0x1018, 0x1018, 0, 0, 1},
+    {0x1018, 0x1018, 1, 4, 4}, {0x1200, 0x12FF, 0, 0, 1}, {0x1200, 0x12FF, 3, 3, 1}, {0x1400, 0x15FF, 0, 0, 1},
+    {0x1800, 0x19FF, 0, 0, 1},
 };
 
 /// Returns whether an entry of a type of the library has the width that CiA 301 defines for its object.
@@ -312,6 +306,11 @@ constexpr bool has_standard_width(std::uint32_t key, std::uint8_t width) {
   constexpr std::uint16_t behind = 0x2000;  // the communication profile
   if (rules::index_of(key) >= behind) {
     return true;
+  }
+  for (const Type& known : types) {
+    if (known.rule.last_index < behind && rules::is_place(known.rule, key)) {
+      return known.width == 0 || width == known.width;
+    }
   }
   for (const Standard& object : standard) {
     if (rules::index_of(key) >= object.first && rules::index_of(key) <= object.last &&
