@@ -134,31 +134,39 @@ struct Type {
 // An element of types for a row of CO_OBJECTS(). The type is null if the configuration excludes it.
 #define CO_OBJECT_TYPE(rule, type, functions, first, last, first_sub, last_sub, bytes, flags, value, use, setting) \
   {CO_IF_ZERO(setting, nullptr, &functions), rules::rule, Value::value, bytes},
+
+// clang-format off
+// X(name, rule, value, width): an element of types for COTname, and of extensible for ODTname
+#define CO_PLAIN_TYPES(X) \
+  X(Boolean,       boolean,           boolean,          1) \
+  X(Int8,          integer(1),        integer,          1) \
+  X(Int16,         integer(2),        integer,          2) \
+  X(Int32,         integer(4),        integer,          4) \
+  X(Int64,         integer(8),        integer,          8) \
+  X(Unsigned24,    integer(4),        unsigned_integer, 3) \
+  X(Unsigned40,    integer(8),        unsigned_integer, 5) \
+  X(Unsigned48,    integer(8),        unsigned_integer, 6) \
+  X(Unsigned56,    integer(8),        unsigned_integer, 7) \
+  X(Signed24,      integer(4),        signed_integer,   3) \
+  X(Signed40,      integer(8),        signed_integer,   5) \
+  X(Signed48,      integer(8),        signed_integer,   6) \
+  X(Signed56,      integer(8),        signed_integer,   7) \
+  X(Real32,        variable,          real,             4) \
+  X(Real64,        variable,          real,             8) \
+  X(TimeOfDay,     variable,          bytes,            6) \
+  X(String,        variable,          bytes,            0) \
+  X(VisibleString, variable,          bytes,            0) \
+  X(OctetString,   variable,          bytes,            0) \
+  X(UnicodeString, variable,          bytes,            0) \
+  X(Domain,        variable,          bytes,            0)
+// clang-format on
+#define CO_PLAIN_TYPE(name, rule, value, width) {&COT##name, rules::rule, Value::value, width},
+#define CO_EXTENSIBLE_TYPE(name, rule, value, width) {&ODT##name.Ex.Type, &COT##name},
 /// \endcond
 
 /// Object types of the library. A type whose rules or values depend on the sub-index has several elements.
 inline constexpr Type types[] = {
-    {&COTBoolean, rules::boolean, Value::boolean, 1},
-    {&COTInt8, rules::integer(1), Value::integer, 1},
-    {&COTInt16, rules::integer(2), Value::integer, 2},
-    {&COTInt32, rules::integer(4), Value::integer, 4},
-    {&COTInt64, rules::integer(8), Value::integer, 8},
-    {&COTUnsigned24, rules::integer(4), Value::unsigned_integer, 3},
-    {&COTUnsigned40, rules::integer(8), Value::unsigned_integer, 5},
-    {&COTUnsigned48, rules::integer(8), Value::unsigned_integer, 6},
-    {&COTUnsigned56, rules::integer(8), Value::unsigned_integer, 7},
-    {&COTSigned24, rules::integer(4), Value::signed_integer, 3},
-    {&COTSigned40, rules::integer(8), Value::signed_integer, 5},
-    {&COTSigned48, rules::integer(8), Value::signed_integer, 6},
-    {&COTSigned56, rules::integer(8), Value::signed_integer, 7},
-    {&COTReal32, rules::variable, Value::real, 4},
-    {&COTReal64, rules::variable, Value::real, 8},
-    {&COTTimeOfDay, rules::variable, Value::bytes, 6},
-    {&COTString, rules::variable, Value::bytes, 0},
-    {&COTVisibleString, rules::variable, Value::bytes, 0},
-    {&COTOctetString, rules::variable, Value::bytes, 0},
-    {&COTUnicodeString, rules::variable, Value::bytes, 0},
-    {&COTDomain, rules::variable, Value::bytes, 0},
+    CO_PLAIN_TYPES(CO_PLAIN_TYPE)  //
     {&COTDomainRo, rules::variable, Value::bytes, 0},
     CO_OBJECTS(CO_OBJECT_TYPE)
 #if USE_EMCY
@@ -166,6 +174,7 @@ inline constexpr Type types[] = {
 #endif
 };
 #undef CO_OBJECT_TYPE
+#undef CO_PLAIN_TYPE
 
 /// Returns whether two addresses are known to be equal. If the compiler has to consider symbols at address 0
 /// (-fno-delete-null-pointer-checks, sanitizers of gcc), it can only prove that an address is equal to itself. That is
@@ -180,30 +189,10 @@ struct Extensible {
 };
 
 /// All types of extensible entries.
-inline constexpr Extensible extensible[] = {
-    {&ODTBoolean.Ex.Type, &COTBoolean},
-    {&ODTInt8.Ex.Type, &COTInt8},
-    {&ODTInt16.Ex.Type, &COTInt16},
-    {&ODTInt32.Ex.Type, &COTInt32},
-    {&ODTInt64.Ex.Type, &COTInt64},
-    {&ODTUnsigned24.Ex.Type, &COTUnsigned24},
-    {&ODTUnsigned40.Ex.Type, &COTUnsigned40},
-    {&ODTUnsigned48.Ex.Type, &COTUnsigned48},
-    {&ODTUnsigned56.Ex.Type, &COTUnsigned56},
-    {&ODTSigned24.Ex.Type, &COTSigned24},
-    {&ODTSigned40.Ex.Type, &COTSigned40},
-    {&ODTSigned48.Ex.Type, &COTSigned48},
-    {&ODTSigned56.Ex.Type, &COTSigned56},
-    {&ODTReal32.Ex.Type, &COTReal32},
-    {&ODTReal64.Ex.Type, &COTReal64},
-    {&ODTTimeOfDay.Ex.Type, &COTTimeOfDay},
-    {&ODTString.Ex.Type, &COTString},
-    {&ODTVisibleString.Ex.Type, &COTVisibleString},
-    {&ODTOctetString.Ex.Type, &COTOctetString},
-    {&ODTUnicodeString.Ex.Type, &COTUnicodeString},
-    {&ODTDomain.Ex.Type, &COTDomain},
-};
+inline constexpr Extensible extensible[] = {CO_PLAIN_TYPES(CO_EXTENSIBLE_TYPE)};
 #endif
+#undef CO_EXTENSIBLE_TYPE
+#undef CO_PLAIN_TYPES
 
 /// Returns the type whose rules a type follows: the original type of an extensible type; for COTParaRestore
 /// COTParaStore, because the index decides; otherwise the type itself.
