@@ -44,6 +44,22 @@ typedef struct CO_IF_T {
   bool IsElapsed;       ///< classic timer driver: its expiry is being processed by COTmrService()
 } CO_IF;
 
+/// Counters of a node since CONodeInit(). All counters saturate.
+typedef struct CO_NODE_COUNTERS_T {
+  uint32_t Received;  ///< frames read from the driver
+  /// Received frames without a consumer in this node, or of a service that the NMT state does not allow.
+  uint32_t Unclaimed;
+  /// Received frames that a service of this node consumes, but with a wrong length or format, or with a DLC above 15;
+  /// they are ignored. Frames with a DLC above 15 that the application sends are counted here, too.
+  uint32_t Malformed;
+  uint32_t Sent;  ///< frames that the driver accepted
+  /// Frames that were discarded because a queue was full, or by a reset or a change of the NMT state.
+  uint32_t Dropped;
+  uint32_t SdoAborts;                    ///< SDO transfers that the server aborted
+  uint32_t TimerExhausted;               ///< calls of COTmrCreate() without a free timer
+  uint32_t CanEvents[CO_CAN_EVENT_NUM];  ///< events reported by CONodeCanEvent() or detected by CONodeProcess()
+} CO_NODE_COUNTERS;
+
 /// Connects the interface with a node and initialises all drivers. CONodeInit() has done both: not for a node that
 /// runs, because the timers of the stack would stop. \a freq: timer ticks per second.
 void COIfInit(CO_IF* cif, struct CO_NODE_T* node, uint32_t freq);
