@@ -119,6 +119,9 @@ typedef struct CO_CALLBACKS_T {
 #endif
 } CO_CALLBACKS;
 
+/// Returns CO_NODE_EXT.User; null if there is none, or \a node is null.
+void* CONodeGetUser(const struct CO_NODE_T* node);
+
 #ifdef __cplusplus
 }
 #endif

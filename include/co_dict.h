@@ -198,6 +198,22 @@ const char* CODictFaultName(CO_DICT_FAULT fault);
 /// numbers. Never null.
 const char* CODictFaultText(CO_DICT_FAULT fault);
 
+/// \name 1002h, manufacturer status register
+/// \{
+
+/// Sets the manufacturer status register, 1002h (a CO_TUNSIGNED32, not flag D), to \a status. A change triggers the
+/// event-driven TPDOs that map it, with or without flag A. [CiA 301, 7.5.2.3]
+/// \retval CO_ERR_NONE           1002h has the value
+/// \retval CO_ERR_BAD_ARG        \a node is null or was never initialised
+/// \retval CO_ERR_OBJ_NOT_FOUND  there is no 1002h
+/// \retval CO_ERR_OBJ_ACC        1002h holds its value in the table (flag D), or is in read-only memory
+/// \retval CO_ERR_OBJ_SIZE       1002h is not a number of 32 bits
+CO_ERR CONodeSetStatus(struct CO_NODE_T* node, uint32_t status);
+
+/// Returns the manufacturer status register, 1002h; 0 if it cannot be read, or \a node is null.
+uint32_t CONodeGetStatus(struct CO_NODE_T* node);
+/// \}
+
 #ifdef __cplusplus
 }
 #endif

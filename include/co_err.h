@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_err.h
-/// Error codes. Functions return them; the node also stores the last one (CONodeGetErr()).
+/// Error codes, and the last error of a node. Functions return error codes; the node also stores the last one.
 #ifndef CO_ERR_H_
 #define CO_ERR_H_
 
@@ -133,6 +133,50 @@ typedef enum CO_ERR_T {
   CO_ERR_NONE = 0,  ///< success
   CO_ERR_LIST(CO_ERR_ENUMERATOR)
 } CO_ERR;
+
+struct CO_NODE_T;
+
+/// \name The last error of a node
+/// Context: the loop.
+/// \{
+
+/// Returns the last error and clears it. COErrName() and COErrText() return its name and its meaning,
+/// CONodeGetErrKey() the object that it is about.
+/// \retval CO_ERR_NONE     no error since the last call
+/// \retval CO_ERR_BAD_ARG  \a node is null
+CO_ERR CONodeGetErr(struct CO_NODE_T* node);
+
+/// Returns the key of the object that the last error is about: the error that CONodeGetErr() returned last or, if there
+/// is a newer one, will return. It may be called before CONodeGetErr() or after it. CO_GET_IDX() and CO_GET_SUB()
+/// return index and sub-index; the flags are 0. The object is
+/// - CO_ERR_DICT_INIT: the entry that CODictGetFault() names;
+/// - CO_ERR_OBJ_INIT: the first entry whose Init function failed;
+/// - CO_ERR_RPDO_COM_OBJ, CO_ERR_TPDO_COM_OBJ: sub-index 1 (COB-ID) or 2 (transmission type) of 1400h… or 1800h…;
+/// - CO_ERR_RPDO_MAP_OBJ, CO_ERR_TPDO_MAP_OBJ: the entry of 1600h… or 1A00h… that is wrong, or the first one behind 64
+///   bits; sub-index 0: there are no entries, too many, or the PDO cannot be a multiplex PDO;
+/// - CO_ERR_PARA_… and an error of a group that is stored autonomously: the sub-index of 1010h;
+/// - CO_ERR_CFG_…, CO_ERR_OBJ_RANGE_LOW: the object that is missing or has a wrong value;
+/// - CO_ERR_SDO_READ, CO_ERR_SDO_WRITE: the object of the transfer;
+/// - an error of a type function that a PDO, 1001h or 1003h has called: the object;
+/// - COTPdoTrigObj(), OD_requestTPDO(): the object; COTPdoTrigPdo(): the TPDO, sub-index 0 of 1800h….
+/// \retval 0  the error is about no object, CONodeGetErr() returned CO_ERR_NONE, or \a node is null
+uint32_t CONodeGetErrKey(const struct CO_NODE_T* node);
+
+/// Bytes that the longest text of CONodeGetErrText() needs, with its NUL.
+#define CO_NODE_ERR_TEXT 400
+
+/// Like CONodeGetErr(), and writes name, object and meaning of the error to \a text, with the fault of the dictionary
+/// if there is one: "CO_ERR_TPDO_MAP_OBJ, object 1A00h:02: …". For CO_ERR_NONE the text is "no error", and what is
+/// missing: CONodeStart(), a bit rate, COTmrService() or COTmrProcess() for a timer that has elapsed, 1017h. Text
+/// beyond \a size bytes is cut off; it always ends with a NUL. Names and meanings take about 8 KB of flash, only in a
+/// program that calls this function, COErrName(), COErrText() or those of co_dict.h. With USE_DICT_CHECK 0 each call
+/// returns CO_ERR_DICT_INIT while entries are in the wrong order, also if the node runs.
+///
+/// \retval CO_ERR_NONE       no error since the last call
+/// \retval CO_ERR_DICT_INIT  the dictionary is refused, or its entries are in the wrong order
+/// \retval CO_ERR_BAD_ARG    an argument is null, or \a size is 0
+CO_ERR CONodeGetErrText(struct CO_NODE_T* node, char* text, uint32_t size);
+/// \}
 
 /// Returns the name of an error code, for messages: "CO_ERR_TPDO_MAP_OBJ"; "unknown error" for other numbers. Never
 /// null. The names (about 2 KB) are linked only into a program that calls this function; likewise the texts of

@@ -60,6 +60,9 @@ typedef struct CO_NODE_COUNTERS_T {
   uint32_t CanEvents[CO_CAN_EVENT_NUM];  ///< events reported by CONodeCanEvent() or detected by CONodeProcess()
 } CO_NODE_COUNTERS;
 
+/// Returns a copy of the counters; all are 0 if \a node is null.
+CO_NODE_COUNTERS CONodeGetCounters(const struct CO_NODE_T* node);
+
 /// Connects the interface with a node and initialises all drivers. CONodeInit() has done both: not for a node that
 /// runs, because the timers of the stack would stop. \a freq: timer ticks per second.
 void COIfInit(CO_IF* cif, struct CO_NODE_T* node, uint32_t freq);
@@ -91,6 +94,18 @@ void COIfCanClose(CO_IF* cif);
 uint32_t COIfNvmRead(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size);
 /// Writes \a size bytes at address \a start. Returns the number of bytes written; 0 without a driver.
 uint32_t COIfNvmWrite(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size);
+
+/// \name As in CANopen-Stack: callbacks
+/// Functions that the application may define (see co_nmt.h); the defaults do nothing. New programs use CO_CALLBACKS.
+/// \{
+
+/// Called for a received frame that no service of the node consumes; not called in CO_INIT and CO_INVALID. With a
+/// real-time thread: see CO_NODE_EXT.Foreign.
+void COIfCanReceive(CO_IF_FRM* frm);
+
+/// Called when the CAN controller has changed its state.
+void CONodeCanChange(struct CO_NODE_T* node, CO_CAN_EVENT event);
+/// \}
 
 #ifdef __cplusplus
 }

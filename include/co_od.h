@@ -457,10 +457,10 @@ ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) CO_NEEDS(USE_OD) CO_NEEDS(U
 /// \}
 
 /// \name Locks
-/// All three names are one lock, the node lock (CO_NODE_EXT.Enter and Leave, see co_core.h), so they cannot be taken in
-/// a wrong order. Each thread holds it around every call of the stack that does not lock it itself, and around accesses
-/// to objects. Calls do not nest. Functions that the stack calls (read and write functions, callbacks, types, timer
-/// actions, drivers) run with the lock held and must not lock it.
+/// All three names are one lock, the node lock (CO_NODE_EXT.Enter and Leave, see co_real_time.h), so they cannot be
+/// taken in a wrong order. Each thread holds it around every call of the stack that does not lock it itself, and around
+/// accesses to objects. Calls do not nest. Functions that the stack calls (read and write functions, callbacks, types,
+/// timer actions, drivers) run with the lock held and must not lock it.
 ///
 /// Without Enter and Leave there is one context, and the lock is CO_NODE_EXT.OdLock and OdUnlock: for accesses of the
 /// loop that must be consistent for interrupts and for threads that access only variables. In this case calls may nest.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="each header alone, as C11, as C++17 and inside extern \"C\" of C++17, gcc and clang"
+about="each header alone, as C11, as C++17 and inside extern \"C\" of C++17, and the program of co_core.h, gcc and clang"
 minutes=1
 packages=(g++ clang)
 
@@ -17,6 +17,28 @@ lane() {
   for header in $(sources include drivers -name '*.hpp'); do
     header_alone "$header" c++ c++17
   done
+  local compiler
+  for compiler in gcc clang; do
+    check "the program in co_core.h with $compiler" program_compiles "$compiler"
+  done
+}
+
+# Compiles the program in the comment at the head of co_core.h, with the declarations that it says are elsewhere.
+program_compiles() {  # COMPILER
+  local program
+  program=$(sed -n 's,^///     ,,p' "$root/include/co_core.h")
+  [[ $program == *CONodeInitCtx*'
+}' ]] && "$1" -x c -std=c11 "${strict[@]}" -I "$root/include" -I "$root/config" - <<END
+#include "co_core.h"
+enum { OD_LENGTH = 2 };
+extern CO_OBJ Od[OD_LENGTH];
+extern const CO_IF_CAN_DRV_EX BoardCan;
+extern const CO_IF_TIMER_DRV_EX BoardTimer;
+void BoardTimerInterruptDisable(void);
+void BoardTimerInterruptEnable(void);
+void TimerInterrupt(void);
+$program
+END
 }
 
 # Compiles a header alone. A declaration is appended, because C requires one in a translation unit and some headers
