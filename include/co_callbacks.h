@@ -2,8 +2,9 @@
 /// \file co_callbacks.h
 /// Callbacks of one node: a constant table of functions that CO_NODE_EXT.Callbacks names. Every function receives the
 /// node and CO_NODE_EXT.User, so several nodes in one program need no global variables, and a table in a static library
-/// works. Where an entry is null, the C function of the same purpose is called, which the application may define for
-/// all nodes (CONmtModeChange() and others). With USE_CALLBACKS 0 (co_cfg.h) only these C functions are called.
+/// works. Where an entry is null, the C function of the same purpose is called, as in CANopen-Stack, which the
+/// application may define for all nodes (CONmtModeChange() and others). With USE_CALLBACKS 0 (co_cfg.h) only these C
+/// functions are called.
 ///
 /// Context: the loop; with USE_REAL_TIME the mainline. The node lock is held.
 #ifndef CO_CALLBACKS_H_

@@ -17,20 +17,13 @@ extern "C" {
 
 struct CO_NODE_T;
 
-/// The classic drivers (without context) of a node. Nvm may be null: then nothing can be stored.
-typedef struct CO_IF_DRV_T {
-  const CO_IF_CAN_DRV* Can;      ///< may be null if CO_NODE_EXT.Can is not
-  const CO_IF_TIMER_DRV* Timer;  ///< may be null if CO_NODE_EXT.Timer is not
-  const CO_IF_NVM_DRV* Nvm;      ///< not used if CO_NODE_EXT.Nvm is not null
-} CO_IF_DRV;
-
 struct CO_STORE_T;
 
 /// The drivers of a node: &node.If. The application must not access the members. Inside the stack all drivers have a
 /// context argument; those of classic drivers are adapters.
 typedef struct CO_IF_T {
   struct CO_NODE_T* Node;                   ///< owner
-  CO_IF_DRV* Drv;                           ///< classic drivers, CO_NODE_SPEC.Drv; null: they are not used
+  struct CO_IF_DRV_T* Drv;                  ///< classic drivers, CO_NODE_SPEC.Drv; null: they are not used
   const CO_IF_CAN_DRV_EX* Can;              ///< CAN driver
   void* CanCtx;                             ///< argument of the functions of Can
   const CO_IF_TIMER_DRV_EX* Timer;          ///< timer driver
@@ -95,15 +88,22 @@ uint32_t COIfNvmRead(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size)
 /// Writes \a size bytes at address \a start. Returns the number of bytes written; 0 without a driver.
 uint32_t COIfNvmWrite(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size);
 
-/// \name As in CANopen-Stack: callbacks
-/// Functions that the application may define (see co_nmt.h); the defaults do nothing. New programs use CO_CALLBACKS.
+/// \name As in CANopen-Stack
+/// The callbacks are functions that the application may define (see co_nmt.h); the defaults do nothing.
 /// \{
 
-/// Called for a received frame that no service of the node consumes; not called in CO_INIT and CO_INVALID. With a
-/// real-time thread: see CO_NODE_EXT.Foreign.
+/// The classic drivers (without context) of a node. Nvm may be null: then nothing can be stored.
+typedef struct CO_IF_DRV_T {
+  const CO_IF_CAN_DRV* Can;      ///< may be null if CO_NODE_EXT.Can is not
+  const CO_IF_TIMER_DRV* Timer;  ///< may be null if CO_NODE_EXT.Timer is not
+  const CO_IF_NVM_DRV* Nvm;      ///< not used if CO_NODE_EXT.Nvm is not null
+} CO_IF_DRV;
+
+/// Like CO_CALLBACKS.CanReceive: called for a received frame that no service of the node consumes; not called in
+/// CO_INIT and CO_INVALID. With a real-time thread: see CO_NODE_EXT.Foreign.
 void COIfCanReceive(CO_IF_FRM* frm);
 
-/// Called when the CAN controller has changed its state.
+/// Like CO_CALLBACKS.CanChange: called when the CAN controller has changed its state.
 void CONodeCanChange(struct CO_NODE_T* node, CO_CAN_EVENT event);
 /// \}
 

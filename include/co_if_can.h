@@ -68,19 +68,8 @@ static inline void COFrmSetLong(CO_IF_FRM* frm, uint32_t value, uint32_t pos) {
 /// \endcond
 /// \}
 
-/// A classic CAN driver (without context): one table, one controller. All functions are called in the loop context and
-/// must not block, except Read in a task of an RTOS.
-typedef struct CO_IF_CAN_DRV_T {
-  void (*Init)(void);             ///< prepares the controller, which stays off the bus
-  void (*Enable)(uint32_t baud);  ///< sets the bit timing (bit/s) and goes on the bus
-  int16_t (*Read)(CO_IF_FRM*);    ///< returns sizeof(CO_IF_FRM) for a frame, 0 for none, -1 on error
-  int16_t (*Send)(CO_IF_FRM*);    ///< returns sizeof(CO_IF_FRM) if accepted; 0 (busy) and -1 (error): retried later
-  void (*Reset)(void);            ///< clears errors and queues, goes back on the bus
-  void (*Close)(void);            ///< goes off the bus
-} CO_IF_CAN_DRV;
-
-/// A CAN driver with context argument, for several controllers in one program (CO_NODE_EXT). The functions are those of
-/// CO_IF_CAN_DRV.
+/// A CAN driver (CO_NODE_EXT.Can), with context argument for several controllers in one program. All functions are
+/// called in the loop context and must not block, except Read in a task of an RTOS.
 typedef struct CO_IF_CAN_DRV_EX_T {
   void (*Init)(void* ctx);                           ///< prepares the controller, which stays off the bus
   void (*Enable)(void* ctx, uint32_t baud);          ///< sets the bit timing (bit/s) and goes on the bus
@@ -102,6 +91,21 @@ typedef struct CO_IF_CAN_DRV_EX_T {
 /// Frames without CO_IF_FRM_ERROR have no effect. \a ctx is not used. Context: the loop; with several threads the
 /// mainline.
 void CONodeCanReport(void* ctx, struct CO_NODE_T* node, const CO_IF_FRM* frm);
+
+/// \name As in CANopen-Stack
+/// \{
+
+/// A classic CAN driver (without context): one table, one controller. Otherwise the functions are those of
+/// CO_IF_CAN_DRV_EX.
+typedef struct CO_IF_CAN_DRV_T {
+  void (*Init)(void);             ///< prepares the controller, which stays off the bus
+  void (*Enable)(uint32_t baud);  ///< sets the bit timing (bit/s) and goes on the bus
+  int16_t (*Read)(CO_IF_FRM*);    ///< returns sizeof(CO_IF_FRM) for a frame, 0 for none, -1 on error
+  int16_t (*Send)(CO_IF_FRM*);    ///< returns sizeof(CO_IF_FRM) if accepted; 0 (busy) and -1 (error): retried later
+  void (*Reset)(void);            ///< clears errors and queues, goes back on the bus
+  void (*Close)(void);            ///< goes off the bus
+} CO_IF_CAN_DRV;
+/// \}
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,19 @@
 extern "C" {
 #endif
 
+/// A timer driver with context argument and a free-running clock (CO_NODE_EXT.Timer). Timers neither drift nor expire
+/// early, however late the driver is called.
+typedef struct CO_IF_TIMER_DRV_EX_T {
+  void (*Init)(void* ctx, uint32_t freq);  ///< \a freq: ticks per second; called once
+  uint32_t (*Now)(void* ctx);              ///< returns the clock in ticks: any start value, wraps at 2^32
+  /// Requests a call of COTmrService() \a ticks after now; 0: none. Replaces the previous request. May be null where
+  /// the loop polls CONodeNextDeadline().
+  void (*Alarm)(void* ctx, uint32_t ticks);
+} CO_IF_TIMER_DRV_EX;
+
+/// \name As in CANopen-Stack
+/// \{
+
 /// A classic timer driver (without context). It is one of two kinds:
 /// - cyclic: a periodic interrupt calls COTmrService(); Reload stores a count-down, Update decrements it and returns 1
 ///   at its end;
@@ -30,16 +43,7 @@ typedef struct CO_IF_TIMER_DRV_T {
   void (*Start)(void);      ///< starts the timer after a Stop; called directly after Reload
   uint8_t (*Update)(void);  ///< called by COTmrService(): returns 1 if the time has elapsed
 } CO_IF_TIMER_DRV;
-
-/// A timer driver with context argument and a free-running clock (CO_NODE_EXT). Timers neither drift nor expire early,
-/// however late the driver is called.
-typedef struct CO_IF_TIMER_DRV_EX_T {
-  void (*Init)(void* ctx, uint32_t freq);  ///< \a freq: ticks per second; called once
-  uint32_t (*Now)(void* ctx);              ///< returns the clock in ticks: any start value, wraps at 2^32
-  /// Requests a call of COTmrService() \a ticks after now; 0: none. Replaces the previous request. May be null where
-  /// the loop polls CONodeNextDeadline().
-  void (*Alarm)(void* ctx, uint32_t ticks);
-} CO_IF_TIMER_DRV_EX;
+/// \}
 
 #ifdef __cplusplus
 }

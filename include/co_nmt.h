@@ -125,32 +125,6 @@ typedef enum CO_NMT_COMMAND_T {
 /// \retval CO_ERR_IF_CAN_SEND  the transmit queue is full; nothing is sent or executed
 CO_ERR CONmtCommand(CO_NMT* nmt, CO_NMT_COMMAND command, uint8_t nodeId) CO_NEEDS(USE_NMT_MASTER);
 
-/// \name Callbacks of the application
-/// Ordinary functions that the application may define; the defaults do nothing. Define them in an object file or an
-/// object library of the program: linkers ignore a definition in a static library from which nothing else is needed.
-/// \{
-
-/// Called before the mode changes to \a mode; CO_NMT.Mode is still the old one. If the callback requests another mode,
-/// or calls CONodeStop(), that mode is entered instead of \a mode, after a further call of the callback for it.
-void CONmtModeChange(CO_NMT* nmt, CO_MODE mode);
-
-/// Called after a reset by a command of the NMT master, when the node is in Pre-operational (or Operational, see
-/// co_nmt.h) again.
-void CONmtResetRequest(CO_NMT* nmt, CO_NMT_RESET reset);
-
-/// Called when the monitored node \a nodeId has sent no heartbeat within its time (1016h), and again after each further
-/// period.
-void CONmtHbConsEvent(CO_NMT* nmt, uint8_t nodeId);
-
-/// Called when the monitored node \a nodeId reports a new state (CONmtLastHbState() still returns the previous one), is
-/// back after it was missing, or has sent a boot-up message (CO_INIT). \a mode is CO_INVALID for reserved states;
-/// a change from one reserved state to another is not a new state.
-void CONmtHbConsChange(CO_NMT* nmt, uint8_t nodeId, CO_MODE mode);
-
-/// Called by life guarding when the NMT master is missing (\a occurred true), or is back (false).
-void CONmtLifeGuardEvent(CO_NMT* nmt, bool occurred);
-/// \}
-
 /// \name 1F80h, NMT startup
 /// [CiA 302-2] Data: a uint32_t, or the value itself (flag D). Bit 2 = 0: self-start: after CONodeStart() and after
 /// every reset the node enters Operational, once, as soon as it is in Pre-operational. Bit 2 = 1, or no such object: it
@@ -191,6 +165,33 @@ extern const CO_OBJ_TYPE COTErrorBehaviour;  ///< functions of CO_TERROR_BEHAVIO
 /// \retval CO_ERR_BAD_ARG   \a node is null, or \a sub is 0 or 255
 /// \retval CO_ERR_NMT_MODE  the node is in CO_INIT or CO_INVALID
 CO_ERR COErrorBehaviour(struct CO_NODE_T* node, uint8_t sub);
+/// \}
+
+/// \name As in CANopen-Stack: callbacks
+/// Functions that the application may define for all nodes; the defaults do nothing. CO_CALLBACKS (co_callbacks.h) has
+/// functions of one node for the same events. Define them in an object file or an object library of the program:
+/// linkers ignore a definition in a static library from which nothing else is needed.
+/// \{
+
+/// Called before the mode changes to \a mode; CO_NMT.Mode is still the old one. If the callback requests another mode,
+/// or calls CONodeStop(), that mode is entered instead of \a mode, after a further call of the callback for it.
+void CONmtModeChange(CO_NMT* nmt, CO_MODE mode);
+
+/// Called after a reset by a command of the NMT master, when the node is in Pre-operational (or Operational, see
+/// co_nmt.h) again.
+void CONmtResetRequest(CO_NMT* nmt, CO_NMT_RESET reset);
+
+/// Called when the monitored node \a nodeId has sent no heartbeat within its time (1016h), and again after each further
+/// period.
+void CONmtHbConsEvent(CO_NMT* nmt, uint8_t nodeId);
+
+/// Called when the monitored node \a nodeId reports a new state (CONmtLastHbState() still returns the previous one), is
+/// back after it was missing, or has sent a boot-up message (CO_INIT). \a mode is CO_INVALID for reserved states;
+/// a change from one reserved state to another is not a new state.
+void CONmtHbConsChange(CO_NMT* nmt, uint8_t nodeId, CO_MODE mode);
+
+/// Called by life guarding when the NMT master is missing (\a occurred true), or is back (false).
+void CONmtLifeGuardEvent(CO_NMT* nmt, bool occurred);
 /// \}
 
 #ifdef __cplusplus

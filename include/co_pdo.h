@@ -156,14 +156,6 @@ typedef struct CO_MPDO_T {         ///< the resolved lists
 /// \endcond
 #endif
 
-/// Requests the transmission of TPDO \a num of \a tpdo (node.TPdo) like COTPdoRequest(), but reports errors as the
-/// node's error (CONodeGetErr()). \a num out of range: CO_ERR_TPDO_NUM_TRIGGER.
-void COTPdoTrigPdo(CO_TPDO* tpdo, uint16_t num);
-
-/// Like COTPdoTrigPdo(), for all TPDOs of \a tpdo (node.TPdo) that map \a obj. If no TPDO maps it, or it is not an
-/// entry of the node's dictionary, the node's error is CO_ERR_TPDO_OBJ_TRIGGER.
-void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj);
-
 /// Requests the transmission of TPDO \a num, 0…CO_TPDO_N-1. [CiA 301, 7.2.2.5] The PDO is sent at once, when its
 /// inhibit time has elapsed, or with the next SYNC (type 0), with the values at the time of transmission. On any error
 /// nothing is sent, now or later. If an object cannot be read, the result is that of its type's Read function.
@@ -203,9 +195,18 @@ bool CORPdoObjWasReceived(struct CO_NODE_T* node, const CO_OBJ* obj);  ///< \a o
 bool COTPdoObjWasSent(struct CO_NODE_T* node, const CO_OBJ* obj);      ///< \a obj in any TPDO
 /// \}
 
-/// \name Callbacks of the application
-/// Ordinary functions to be defined by the application (see co_nmt.h); the defaults do nothing.
+/// \name As in CANopen-Stack
+/// Requests whose errors are only the node's error, and callbacks: functions that the application may define (see
+/// co_nmt.h); the defaults do nothing. CO_CALLBACKS (co_callbacks.h) has functions of one node for the same events.
 /// \{
+
+/// Requests the transmission of TPDO \a num of \a tpdo (node.TPdo) like COTPdoRequest(), but reports errors as the
+/// node's error (CONodeGetErr()). \a num out of range: CO_ERR_TPDO_NUM_TRIGGER.
+void COTPdoTrigPdo(CO_TPDO* tpdo, uint16_t num);
+
+/// Like COTPdoTrigPdo(), for all TPDOs of \a tpdo (node.TPdo) that map \a obj. If no TPDO maps it, or it is not an
+/// entry of the node's dictionary, the node's error is CO_ERR_TPDO_OBJ_TRIGGER.
+void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj);
 
 /// Called before a TPDO is sent; may change \a frm.
 void COPdoTransmit(CO_IF_FRM* frm);
