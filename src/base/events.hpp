@@ -36,12 +36,12 @@ class Serving {
   uint8_t before_;
 };
 
-// Reasons why transmission is disabled (bits of CO_NODE.TransmitOff).
+// Reasons why transmission is disabled (bits of CO_NODE.Transmit.Off).
 enum TransmitOff : uint8_t {
   switching = 0x01,  // the LSS slave or master switches the bit rate
   stopping = 0x02,   // CONodeStop() was called
 };
-inline void end_switching(CO_NODE& node) { node.TransmitOff = static_cast<uint8_t>(node.TransmitOff & stopping); }
+inline void end_switching(CO_NODE& node) { node.Transmit.Off = static_cast<uint8_t>(node.Transmit.Off & stopping); }
 
 // Deferred work (bits of CO_NODE.Pending). It runs at the end of the API function that has caused it; if that was
 // called while the node works, where the outermost call ends. Order: configuration, EMCY messages, TPDOs, NMT state,
@@ -136,8 +136,8 @@ void change_lss(CO_NODE& node);
 // Reports that the network has written an object: the configuration may differ from the verified one. [301:7.5.2.23]
 inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_OBJ& obj) {
 #if USE_PARA
-  if (node.OnWrite != nullptr) {
-    node.OnWrite(&node, &obj);
+  if (node.Storage.OnWrite != nullptr) {
+    node.Storage.OnWrite(&node, &obj);
   }
 #endif
 }

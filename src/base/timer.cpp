@@ -31,7 +31,8 @@ static_assert(offsetof(CO_TMR_MEM, Next) == 0);
 // Returns whether frames or segments are queued that COTmrProcess() can send. Called in the timer interrupt, without
 // the lock.
 bool has_to_send(const CO_NODE& node) {
-  return (__atomic_load_n(&node.TxQueue.Num, __ATOMIC_RELAXED) | __atomic_load_n(&node.Paused, __ATOMIC_RELAXED)) != 0;
+  return (__atomic_load_n(&node.TxQueue.Num, __ATOMIC_RELAXED) |
+          __atomic_load_n(&node.Transmit.Paused, __ATOMIC_RELAXED)) != 0;
 }
 
 // Sets the clock to now; timers that have elapsed by then become due.

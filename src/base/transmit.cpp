@@ -29,7 +29,7 @@ uint32_t rank(const CO_IF_FRM& frame) {
 // Returns whether the next frame may be sent. In Initialisation only fixed frames are sent: frames from before a reset,
 // then the boot-up message. After CONodeStop() nothing is sent.
 bool may_send_next(const CO_NODE& node) {
-  return node.TransmitOff == 0 && node.Nmt.Mode > (node.TxQueue.Fixed != 0 ? CO_INVALID : CO_INIT);
+  return node.Transmit.Off == 0 && node.Nmt.Mode > (node.TxQueue.Fixed != 0 ? CO_INVALID : CO_INIT);
 }
 
 void insert(CO_TX_QUEUE& queue, unsigned place, const CO_IF_FRM& frame) {
@@ -137,7 +137,7 @@ bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame) {
 void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) {
   CO_TX_QUEUE& queue = node.TxQueue;
   flush(node);
-  if (queue.Fixed == 0 && node.TransmitOff == 0 && offer_to_driver(node, frame)) {
+  if (queue.Fixed == 0 && node.Transmit.Off == 0 && offer_to_driver(node, frame)) {
     return;
   }
   if (queue.Num == queue.Len) {
@@ -172,11 +172,11 @@ bool send_process_data(CO_NODE& node, const CO_IF_FRM& frame) {
 }
 
 bool offer(CO_NODE& node, const CO_IF_FRM& frame) {
-  if (node.Burst == CO_SDO_BLOCK_PACE || !try_now(node, frame)) {
-    node.Paused = 1;
+  if (node.Transmit.Burst == CO_SDO_BLOCK_PACE || !try_now(node, frame)) {
+    node.Transmit.Paused = 1;
     return false;
   }
-  ++node.Burst;
+  ++node.Transmit.Burst;
   return true;
 }
 

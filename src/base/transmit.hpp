@@ -35,7 +35,9 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 [[nodiscard]] bool offer(CO_NODE& node, const CO_IF_FRM& frame);
 
 // Returns whether frames are held back only by the limit of offer(): the next call can send them.
-[[nodiscard]] inline bool is_paced(const CO_NODE& node) { return node.Paused != 0 && node.Burst == CO_SDO_BLOCK_PACE; }
+[[nodiscard]] inline bool is_paced(const CO_NODE& node) {
+  return node.Transmit.Paused != 0 && node.Transmit.Burst == CO_SDO_BLOCK_PACE;
+}
 
 // Returns whether send() would lose a frame now.
 [[nodiscard]] bool is_full(CO_NODE& node);

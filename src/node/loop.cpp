@@ -17,12 +17,12 @@
 namespace co::node {
 namespace {
 
-bool waits_to_send(const CO_NODE& node) { return transmit::is_waiting(node) || node.Paused != 0; }
+bool waits_to_send(const CO_NODE& node) { return transmit::is_waiting(node) || node.Transmit.Paused != 0; }
 
 // Offers frames that the driver has refused to the driver again, then continues block transfers and multiplex PDOs.
 void resume_sending(CO_NODE& node) {
   transmit::flush(node);
-  if ((USE_SDO_BLOCK != 0 || CO_MPDO_N != 0) && node.Paused != 0) {
+  if ((USE_SDO_BLOCK != 0 || CO_MPDO_N != 0) && node.Transmit.Paused != 0) {
     const event::Serving serving(node);
     parts::on_free(node);
   }
@@ -34,7 +34,7 @@ void resume_sending(CO_NODE& node) {
   if (node.State != event::running) {
     return;
   }
-  node.Burst = 0;
+  node.Transmit.Burst = 0;
   if (waits_to_send(node)) {
     resume_sending(node);
     event::run_deferred(node);
@@ -110,7 +110,7 @@ void CONodeProcess(CO_NODE* node) {
     node::drop_received(*node);
     return;
   }
-  node->Burst = 0;
+  node->Transmit.Burst = 0;
   if (node::waits_to_send(*node)) {
     node::resume_sending(*node);
     node::run_deferred_of_mainline(*node);
@@ -136,7 +136,7 @@ void COTmrProcess(CO_TMR* tmr) {
   }
   CO_NODE& node = *tmr->Node;
   // Like waits_to_send(), without a branch; resume_sending_between_frames() tests again.
-  const bool waits = USE_FAST_PATHS == 0 || (node.TxQueue.Num | node.Paused) != 0;
+  const bool waits = USE_FAST_PATHS == 0 || (node.TxQueue.Num | node.Transmit.Paused) != 0;
   if (waits) {
     node::resume_sending_between_frames(node);
   }
@@ -144,7 +144,7 @@ void COTmrProcess(CO_TMR* tmr) {
     return;
   }
   if (!waits && node.State == event::running) {
-    node.Burst = 0;  // the limit of offer() begins anew
+    node.Transmit.Burst = 0;  // the limit of offer() begins anew
   }
   tmr::run_due(*tmr);
 }

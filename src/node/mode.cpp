@@ -83,9 +83,9 @@ void enter(CO_NODE& node, CO_MODE mode) {
   parts::run<&Part::of_mode>(node);
   if (mode == CO_INVALID) {
     transmit::clear(node);
-    node.Paused = 0;
+    node.Transmit.Paused = 0;
     node.Pending = 0;
-    node.TransmitOff = 0;
+    node.Transmit.Off = 0;
     port::can_close(node);
   }
 }
@@ -197,7 +197,7 @@ void event::enter_requested_mode(CO_NODE& node) {
 void event::request_mode(CO_NODE& node, CO_MODE requested) {
   if (node.Nmt.Next != requested && node.Nmt.Next != CO_INVALID) {
     node.Nmt.Next = requested;
-    node.TransmitOff = requested == CO_INVALID ? uint8_t{stopping} : node.TransmitOff;
+    node.Transmit.Off = requested == CO_INVALID ? uint8_t{stopping} : node.Transmit.Off;
     defer(node, mode);
   }
 }

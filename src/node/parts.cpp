@@ -43,7 +43,7 @@ constexpr uint16_t count_senders() {
   return all;
 }
 constexpr uint16_t senders = count_senders();
-static_assert(senders <= UINT8_MAX, "CO_NODE.NextSender");
+static_assert(senders <= UINT8_MAX, "CO_NODE.Transmit.Next");
 
 // Continues the sender with this number. Returns whether it has sent frames.
 template <size_t row = 0>
@@ -62,16 +62,16 @@ bool continue_sender(CO_NODE& node, uint16_t sender) {
 
 }  // namespace
 
-// Continues the senders in round-robin order (index: CO_NODE.NextSender), each with as many frames as the controller
+// Continues the senders in round-robin order (index: CO_NODE.Transmit.Next), each with as many frames as the controller
 // accepts. The sender that is refused first continues first the next time.
 void on_free(CO_NODE& node) {
   unsigned idle = 0;
-  CO_ASSERT(senders == 0 || node.NextSender < senders);
-  node.Paused = 0;
-  while (idle < senders && node.Paused == 0) {
-    const bool sent = continue_sender(node, node.NextSender);
-    if (sent || node.Paused == 0) {
-      node.NextSender = static_cast<uint8_t>(node.NextSender + 1U < senders ? node.NextSender + 1U : 0);
+  CO_ASSERT(senders == 0 || node.Transmit.Next < senders);
+  node.Transmit.Paused = 0;
+  while (idle < senders && node.Transmit.Paused == 0) {
+    const bool sent = continue_sender(node, node.Transmit.Next);
+    if (sent || node.Transmit.Paused == 0) {
+      node.Transmit.Next = static_cast<uint8_t>(node.Transmit.Next + 1U < senders ? node.Transmit.Next + 1U : 0);
     }
     idle = sent ? 0 : idle + 1;
   }

@@ -13,8 +13,8 @@ constexpr uint32_t refill_time = 60;  // s
 
 void refill(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
-  --node.StoresUsed;
-  if (node.StoresUsed == 0) {
+  --node.Storage.Used;
+  if (node.Storage.Used == 0) {
     stop(node);
   }
 }
@@ -23,28 +23,28 @@ void refill(void* node_pointer) {
 void start(CO_NODE& node) {
   constexpr uint32_t seconds = 1;
   const uint32_t ticks = tmr::ticks(node, refill_time, seconds);
-  tmr::start(node, node.BudgetTmr, 0, ticks != 0 ? ticks : UINT32_MAX, refill, &node);
+  tmr::start(node, node.Storage.BudgetTmr, 0, ticks != 0 ? ticks : UINT32_MAX, refill, &node);
 }
 
 }  // namespace
 
 bool take_store(CO_NODE& node) {
-  CO_ASSERT(node.StoresUsed <= CO_PARA_BUDGET);
-  if (node.StoreCause != bus) {
+  CO_ASSERT(node.Storage.Used <= CO_PARA_BUDGET);
+  if (node.Storage.Cause != bus) {
     return true;
   }
   if (is_empty(node)) {
     return false;
   }
-  if (node.StoresUsed == 0) {
+  if (node.Storage.Used == 0) {
     start(node);
   }
-  ++node.StoresUsed;
-  node.StoreCause = bus_counted;
+  ++node.Storage.Used;
+  node.Storage.Cause = bus_counted;
   return true;
 }
 
-void stop(CO_NODE& node) { tmr::stop(node, node.BudgetTmr); }
+void stop(CO_NODE& node) { tmr::stop(node, node.Storage.BudgetTmr); }
 
 }  // namespace co::budget
 

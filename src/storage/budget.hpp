@@ -10,7 +10,7 @@ namespace co::budget {
 
 #if USE_PARA && CO_PARA_BUDGET > 0
 
-// Values of CO_NODE.StoreCause: cause of the writes to the memory that follow.
+// Values of CO_NODE.Storage.Cause: cause of the writes to the memory that follow.
 enum Cause : uint8_t {
   application,  // the application: its writes are not limited
   bus,          // the bus; nothing was written yet: the first write takes one store from the budget
@@ -21,8 +21,8 @@ enum Cause : uint8_t {
 // most one store from the budget, with its first write, for any number of records.
 class Command {
  public:
-  explicit Command(CO_NODE& node) : node_(node), outer_(node.StoreCause) { node.StoreCause = bus; }
-  ~Command() { node_.StoreCause = outer_; }
+  explicit Command(CO_NODE& node) : node_(node), outer_(node.Storage.Cause) { node.Storage.Cause = bus; }
+  ~Command() { node_.Storage.Cause = outer_; }
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
 
@@ -32,7 +32,7 @@ class Command {
 };
 
 // Returns whether no store is available.
-[[nodiscard]] inline bool is_empty(const CO_NODE& node) { return node.StoresUsed >= CO_PARA_BUDGET; }
+[[nodiscard]] inline bool is_empty(const CO_NODE& node) { return node.Storage.Used >= CO_PARA_BUDGET; }
 
 // Takes a store from the budget if the bus causes the write and its command has not taken one yet. Returns whether the
 // record may be written: false if the budget is used up.

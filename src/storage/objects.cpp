@@ -88,7 +88,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 // value: that of either sub-index; 0 changes nothing, because the other may still be set
 void note_verification(CO_NODE& node, uint32_t value) {
   if (value != 0) {
-    node.OnWrite = on_write;
+    node.Storage.OnWrite = on_write;
   }
 }
 

@@ -124,9 +124,9 @@ bool has_unsaved_change(CO_NODE& node, const CO_PARA& group) {
 void start_or_stop(CO_NODE& node, uint32_t flags) {
   const uint32_t period = tmr::ticks(node, CO_PARA_PERIOD, CO_TMR_UNIT_1MS);
   if (period != 0 && (flags & CO_PARA__A_) != 0) {
-    tmr::start(node, node.ParaTmr, 0, period, save_changes, &node);
+    tmr::start(node, node.Storage.Tmr, 0, period, save_changes, &node);
   } else {
-    tmr::stop(node, node.ParaTmr);
+    tmr::stop(node, node.Storage.Tmr);
   }
 }
 
@@ -221,14 +221,14 @@ void on_write(CO_NODE* node, const CO_OBJ* obj) {
   if (CO_GET_IDX(obj->Key) == verify_index || !may_be_in_group(*node, *obj)) {
     return;
   }
-  node->OnWrite = nullptr;
+  node->Storage.OnWrite = nullptr;
   dict::write_u32(*node, CO_DEV(verify_index, 1), 0);
   dict::write_u32(*node, CO_DEV(verify_index, 2), 0);
 }
 
 void on_mode(CO_NODE& node) {
   if (node.Nmt.Mode == CO_INVALID) {
-    tmr::stop(node, node.ParaTmr);
+    tmr::stop(node, node.Storage.Tmr);
     budget::stop(node);
   }
 }

@@ -226,17 +226,17 @@ bool is_newest_damaged(const Slots& slots) {
   return slots.other->found == Found::lost && (is_unread || slots.newest->header.generation - header.generation != 1);
 }
 
-// The slot that held the newest record of a group when it was loaded or saved last (CO_NODE.ParaNewest): it is not
+// The slot that held the newest record of a group when it was loaded or saved last (CO_NODE.Storage.Newest): it is not
 // erased, even if the memory cannot be read meanwhile.
 constexpr unsigned groups_in_byte = 4;
 constexpr unsigned slot_bits = 2;
 
-// A place in CO_NODE.ParaNewest.
+// A place in CO_NODE.Storage.Newest.
 struct Remembered {
   explicit Remembered(const Region& region)
-      : byte(region.node.ParaNewest[region.record.group / groups_in_byte]),
+      : byte(region.node.Storage.Newest[region.record.group / groups_in_byte]),
         shift(region.record.group % groups_in_byte * slot_bits) {
-    CO_ASSERT(region.record.group / groups_in_byte < sizeof region.node.ParaNewest);
+    CO_ASSERT(region.record.group / groups_in_byte < sizeof region.node.Storage.Newest);
   }
   uint8_t& byte;
   unsigned shift;

@@ -248,7 +248,7 @@ TEST_CASE("access hook, LSS: if it stops the node there is no answer, no timer a
     slave.node.silent();
     CHECK(slave.node.mode() == CO_INVALID);
     CHECK(slave.node.armed_timers() == 0);
-    CHECK(slave.node->TransmitOff == 0);
+    CHECK(slave.node->Transmit.Off == 0);
     callbacks().lss_store = nullptr;
   }
 }

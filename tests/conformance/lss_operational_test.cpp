@@ -147,7 +147,7 @@ TEST_CASE("LSS, activate bit timing: if CONmtModeChange() stops the node the bit
     node.rx(request);
     CHECK(node.mode() == CO_INVALID);
     CHECK(node.armed_timers() == 0);
-    CHECK(node->TransmitOff == 0);
+    CHECK(node->Transmit.Off == 0);
     CHECK(node.can.init_calls == 1);
     callbacks().mode_change = nullptr;
   }

@@ -260,7 +260,7 @@ TEST_CASE("LSS: a node that is stopped during the switch of the bit rate does no
     const unsigned before = device.node.can.init_calls;
     device.node.call([&] { CONodeStop(&device.node.node); });
     CHECK(device.node.armed_timers() == 0);
-    CHECK(device.node->TransmitOff == 0);
+    CHECK(device.node->Transmit.Off == 0);
     device.node.after(1s);
     CHECK(device.node.can.init_calls == before);
   }

@@ -95,7 +95,7 @@ TEST_CASE("OD block loss: a call of CONodeProcess() repeats at most one block of
   node.calls(1);
   node.rx("601#A2017F0000000000");  // all segments from byte 18207 are lost; the buffer begins at 18669
   unsigned calls = 0;
-  while (node->Paused != 0 && node.can.sent.empty()) {
+  while (node->Transmit.Paused != 0 && node.can.sent.empty()) {
     CHECK(bytes_read(node.extension) <= 2 * CO_SDO_BUF_BYTE);
     node.loop();
     ++calls;

@@ -174,7 +174,7 @@ void __wrap_CONodeProcess(CO_NODE* node) {
     return;
   }
   const CO_MODE mode = node->Nmt.Mode;
-  const bool has_waited = node->Paused != 0 || node->TxQueue.Num != 0;
+  const bool has_waited = node->Transmit.Paused != 0 || node->TxQueue.Num != 0;
   const Kind kind = has_waited ? Kind::after_others : kind_of(fuzz::given.identifier);
   ticks = 0;
   pauses = 0;

@@ -72,7 +72,7 @@ inline void process(CO_NODE& node) {
   unsigned calls = 127 * (CO_SSDO_N + CO_CSDO_N);
   do {
     CONodeProcess(&node);
-  } while (node.Paused != 0 && CONodeNextDeadline(&node) == 0 && --calls != 0);
+  } while (node.Transmit.Paused != 0 && CONodeNextDeadline(&node) == 0 && --calls != 0);
 }
 
 /// Ends the program, which the fuzzer reports as a finding, unless \a holds.

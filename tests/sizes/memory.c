@@ -26,7 +26,7 @@ uint8_t module_emcy[SIZE_OF(Emcy)];
 #else
 #define MPDO 0
 #endif
-uint8_t module_pdo[SIZE_OF(RPdo) + SIZE_OF(TPdo) + SIZE_OF(RPdoFresh) + SIZE_OF(TPdoMarked) + SIZE_OF(TPdoSync) + MPDO];
+uint8_t module_pdo[SIZE_OF(RPdo) + SIZE_OF(TPdo) + SIZE_OF(PdoSets) + MPDO];
 
 #if USE_SYNC
 uint8_t module_sync[SIZE_OF(Sync)];
@@ -74,14 +74,14 @@ uint8_t module_recorder[SIZE_OF(Recorders)];
 #endif
 
 #if USE_PARA
-uint8_t module_storage[SIZE_OF(OnWrite) + SIZE_OF(ParaTmr)];
+uint8_t module_storage[SIZE_OF(Storage)];
 #define PARA sizeof module_storage
 #else
 #define PARA 0
 #endif
 
 #if USE_GUARDING
-uint8_t module_guarding[SIZE_OF(GuardToggle) + SIZE_OF(GuardLost) + SIZE_OF(GuardTmr)];
+uint8_t module_guarding[SIZE_OF(Guarding)];
 #define GUARDING sizeof module_guarding
 #else
 #define GUARDING 0

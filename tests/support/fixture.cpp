@@ -308,7 +308,7 @@ void Fixture::process_frames() {
     if (can.sent.size() - sent > waiting + frames_per_call_ + paced) {
       violations_.push_back(std::to_string(can.sent.size() - sent) + " frames in one call");
     }
-    const bool is_due = node.Paused != 0 && CONodeNextDeadline(&node) == 0;
+    const bool is_due = node.Transmit.Paused != 0 && CONodeNextDeadline(&node) == 0;
     if (can.to_node.empty() && !is_due && (node.TxQueue.Num == 0 || can.sent.size() == sent)) {
       return;
     }

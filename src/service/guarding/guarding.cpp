@@ -32,7 +32,7 @@ void lose_master(void* node_pointer) {
   if (is_replaced_by_heartbeat(node)) {
     return;
   }
-  node.GuardLost = 1;
+  node.Guarding.Lost = 1;
   event::raise(node, event::Fault::life_guard, 0);
   event::lose_communication(node);
   callback::guard_life(node, true);
@@ -40,10 +40,10 @@ void lose_master(void* node_pointer) {
 
 // Called for each remote request: reports that a lost NMT master is present again.
 void find_master(CO_NODE& node) {
-  if (node.GuardLost == 0) {
+  if (node.Guarding.Lost == 0) {
     return;
   }
-  node.GuardLost = 0;
+  node.Guarding.Lost = 0;
   event::resolve(node, event::Fault::life_guard, 0);
   callback::guard_life(node, false);
 }
@@ -51,9 +51,9 @@ void find_master(CO_NODE& node) {
 // Starts the life time again; 0 ticks: stops life guarding.
 void restart_life(CO_NODE& node, uint32_t ticks) {
   if (ticks == 0) {
-    tmr::stop(node, node.GuardTmr);
+    tmr::stop(node, node.Guarding.Tmr);
   } else {
-    tmr::start(node, node.GuardTmr, ticks, 0, lose_master, &node);
+    tmr::start(node, node.Guarding.Tmr, ticks, 0, lose_master, &node);
   }
 }
 
@@ -61,12 +61,12 @@ void restart_life(CO_NODE& node, uint32_t ticks) {
 // because the toggle bit must not skip a value on the bus.
 void answer(CO_NODE& node) {
   CO_IF_FRM* const waiting = transmit::find_waiting(node, wire::CobId::error_control + node.NodeId);
-  const uint8_t toggle = waiting != nullptr ? waiting->Data[0] & wire::toggle : node.GuardToggle;
+  const uint8_t toggle = waiting != nullptr ? waiting->Data[0] & wire::toggle : node.Guarding.Toggle;
   const CO_IF_FRM frame = wire::error_control(node.NodeId, node.Nmt.Mode, toggle);
   if (waiting != nullptr) {
     *waiting = frame;
   } else if (transmit::send(node, frame)) {
-    node.GuardToggle ^= wire::toggle;
+    node.Guarding.Toggle ^= wire::toggle;
   }
 }
 
@@ -84,13 +84,13 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t) {
 
 void on_mode(CO_NODE& node) {
   if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
-    tmr::stop(node, node.GuardTmr);
+    tmr::stop(node, node.Guarding.Tmr);
   }
 }
 
 void reset(CO_NODE& node) {
-  node.GuardToggle = 0;
-  node.GuardLost = 0;
+  node.Guarding.Toggle = 0;
+  node.Guarding.Lost = 0;
 }
 
 }  // namespace co::guarding

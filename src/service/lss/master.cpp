@@ -189,7 +189,7 @@ CO_ERR activate(CO_LSSM& master, CO_LSSM_CALLBACK callback, uint32_t delay) {
     err = CO_ERR_IF_CAN_SEND;
   }
   if (err == CO_ERR_NONE) {
-    node.TransmitOff |= event::switching;
+    node.Transmit.Off |= event::switching;
   }
   return err;
 }

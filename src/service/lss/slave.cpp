@@ -187,7 +187,7 @@ void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   const uint32_t ticks = tmr::ticks(node, delay, CO_TMR_UNIT_1MS);
   node.Lss.Delay = delay != 0 && ticks == 0 ? UINT32_MAX : ticks;
   node.Baudrate = node.Lss.CfgBaudrate;  // kept by CO_NODE.Baudrate, because a reset may load other values meanwhile
-  node.TransmitOff |= event::switching;
+  node.Transmit.Off |= event::switching;
   call_after_delay(node, switch_rate);
 }
 
@@ -395,7 +395,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   if (frame.DLC != wire::lss_dlc) {
     return false;
   }
-  if (node.TransmitOff == 0 && is_served(node)) {
+  if (node.Transmit.Off == 0 && is_served(node)) {
     serve(node, frame);
   }
   return true;

@@ -92,7 +92,7 @@ CO_ERR send_pending(CO_PDO& pdo) {
     goes_on = all || err != CO_ERR_NONE;
   }
   if (all && is_waiting(node)) {
-    node.Paused = 1;
+    node.Transmit.Paused = 1;
   }
   return result;
 }

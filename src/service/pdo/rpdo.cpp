@@ -52,7 +52,7 @@ bool check_length(CO_RPDO& pdo, unsigned length) {
 // Stores the data until the SYNC; the last frame before the SYNC is used.
 void store_until_sync(CO_RPDO& pdo, const CO_IF_FRM& frame) {
   copy_data(pdo.Own.Data, frame.Data);
-  bits::add(pdo.Node->RPdoFresh, pdo.Number);
+  bits::add(pdo.Node->PdoSets.Fresh, pdo.Number);
   pdo.Node->HasFresh = 1;
 }
 
@@ -70,7 +70,7 @@ void write_stored(CO_NODE& node, CO_RPDO& pdo) {
 }
 
 void forget_stored(CO_NODE& node) {
-  __builtin_memset(node.RPdoFresh, 0, sizeof node.RPdoFresh);
+  __builtin_memset(node.PdoSets.Fresh, 0, sizeof node.PdoSets.Fresh);
   node.HasFresh = 0;
 }
 
@@ -136,7 +136,7 @@ void begin_rpdo(CO_PDO& pdo, uint32_t identifier, uint32_t event) {
   pdo.Deadline = event;
   pdo.Map.Flags &= changed;
   if (USE_SYNC != 0) {
-    bits::remove(pdo.Node->RPdoFresh, pdo.Number);
+    bits::remove(pdo.Node->PdoSets.Fresh, pdo.Number);
   }
   routes::change(*pdo.Node, identifier, routes::owner<PartId::rpdo>(pdo.Number));
 }
@@ -184,9 +184,9 @@ void apply(CO_NODE& node, uint8_t) {
   }
   {
     const Lock lock(node);
-    bits::for_each(node.RPdoFresh, [&](unsigned n) { write_stored(node, node.RPdo[n]); });
+    bits::for_each(node.PdoSets.Fresh, [&](unsigned n) { write_stored(node, node.RPdo[n]); });
   }
-  bits::take_each(node.RPdoFresh, [&](unsigned n) {
+  bits::take_each(node.PdoSets.Fresh, [&](unsigned n) {
     callback::update_pdo_at_sync(node, node.RPdo[n]);
     callback::update_pdo(node, node.RPdo[n]);
   });

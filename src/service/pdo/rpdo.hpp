@@ -17,7 +17,7 @@ enum RpdoFault : uint8_t {
 
 // Returns whether the bit rate is being switched: RPDOs are ignored then.
 [[nodiscard]] inline bool is_switching([[maybe_unused]] const CO_NODE& node) {
-  return (USE_LSS != 0 || USE_LSS_MASTER != 0) && node.TransmitOff != 0;
+  return (USE_LSS != 0 || USE_LSS_MASTER != 0) && node.Transmit.Off != 0;
 }
 
 // Returns the number of the PDO from 1 as detail of its faults (255 for all numbers above).

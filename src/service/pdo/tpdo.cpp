@@ -109,7 +109,7 @@ void on_time(void* pdo_pointer) {
 void mark(CO_TPDO& pdo) {
   CO_NODE& node = *pdo.Node;
   set(pdo.Map, marked);
-  bits::add(node.TPdoMarked, pdo.Number);
+  bits::add(node.PdoSets.Marked, pdo.Number);
   event::defer(node, event::send_tpdos);
 }
 
@@ -215,7 +215,7 @@ bool maps_or_marks(CO_TPDO& pdo, uint16_t entry) {
 CO_ERR trigger_marked(CO_NODE& node) {
   CO_ERR last = CO_ERR_NONE;
   event::remove(node, event::send_tpdos);
-  bits::take_each(node.TPdoMarked, [&](unsigned n) {
+  bits::take_each(node.PdoSets.Marked, [&](unsigned n) {
     CO_TPDO& pdo = node.TPdo[n];
     if (has(pdo.Map, marked)) {
       clear(pdo.Map, marked);
@@ -248,7 +248,7 @@ void begin(CO_TPDO& pdo) {
 }
 
 void withdraw_synchronous(CO_NODE& node) {
-  bits::for_each(node.TPdoSync, [&](unsigned n) {
+  bits::for_each(node.PdoSets.Sync, [&](unsigned n) {
     if (transmit::is_waiting(node)) {
       transmit::withdraw(node, node.TPdo[n].Identifier);
     }
@@ -282,8 +282,8 @@ void begin_tpdo(CO_PDO& pdo, uint32_t identifier, Remote requests) {
   pdo.Map.Flags = static_cast<uint8_t>((pdo.Map.Flags & changed) | (asked ? unsigned{remote} : 0U));
   mpdo::begin_tpdo(pdo, pdo.Number);
   if (USE_SYNC != 0) {
-    exists(pdo.Map) && is_synchronous(pdo.Type) ? bits::add(node.TPdoSync, pdo.Number)
-                                                : bits::remove(node.TPdoSync, pdo.Number);
+    exists(pdo.Map) && is_synchronous(pdo.Type) ? bits::add(node.PdoSets.Sync, pdo.Number)
+                                                : bits::remove(node.PdoSets.Sync, pdo.Number);
   }
   if (USE_PDO_RTR != 0) {
     routes::change(node, asked ? identifier : wire::no_frame, routes::owner<PartId::tpdo>(pdo.Number));
@@ -336,7 +336,7 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
 
 void sample(CO_NODE& node, uint8_t counter) {
   if (is_operational(node)) {
-    bits::for_each(node.TPdoSync, [&](unsigned n) { process_sync(node.TPdo[n], counter); });
+    bits::for_each(node.PdoSets.Sync, [&](unsigned n) { process_sync(node.TPdo[n], counter); });
   }
 }
 
@@ -363,7 +363,7 @@ CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
 CO_ERR send_marked(CO_NODE& node) {
   CO_ASSERT(node.OdLocked == 0 && event::is_serving(node));
   const CO_ERR err = trigger_marked(node);
-  if (!bits::is_empty(node.TPdoMarked)) {
+  if (!bits::is_empty(node.PdoSets.Marked)) {
     (void)trigger_marked(node);
     event::remove(node, event::send_tpdos);
   }

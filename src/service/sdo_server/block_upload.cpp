@@ -27,8 +27,8 @@ void add_to_crc(CO_SDO& channel, uint32_t position) {
 
 // Pauses the transfer until the next call of CONodeProcess() or COTmrProcess().
 void pause(CO_NODE& node) {
-  node.Paused = 1;
-  node.Burst = CO_SDO_BLOCK_PACE;
+  node.Transmit.Paused = 1;
+  node.Transmit.Burst = CO_SDO_BLOCK_PACE;
 }
 
 Abort load(CO_SDO& channel, uint32_t position) {
