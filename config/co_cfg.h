@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_cfg.h
 /// Settings of the stack, with meaning and range; the values below are the defaults. docs/sizes.md has the bytes that
-/// each costs. A value is a number, or an expression in parentheses. Each value can be defined as a compiler definition
+/// each costs. A value is a number. Each value can be defined as a compiler definition
 /// (-D), by a preset (CO_CFG_PRESET names a header of config/presets), or by a co_cfg.h of the application that is
 /// found first. A definition has priority over the preset. Library and application need the same values: the linker
-/// refuses different ones (lexican/detail/configuration.h).
+/// refuses different ones, unless one is an expression such as (4 + 2) (lexican/detail/configuration.h).
 #ifndef CO_CFG_H_
 #define CO_CFG_H_
 
@@ -95,9 +95,6 @@
 #if CO_CSDO_BLOCK != 0 && (CO_CSDO_BLOCK < 5 || CO_CSDO_BLOCK > 256)
 #error "CO_CSDO_BLOCK: 0 or 5...256 bytes"
 #endif
-#ifdef USE_CSDO_BLOCK
-#error "USE_CSDO_BLOCK was replaced: CO_CSDO_BLOCK 0 omits the block transfer of SDO clients"
-#endif
 
 /// Access of SDO clients to the dictionary of their own node, if sub 3 of 1280h… is its node-ID: 0 or 1. With 0 such a
 /// client is not configured: COCSdoFind() returns null.
@@ -145,9 +142,6 @@
 #endif
 #if CO_MPDO_N < 0 || CO_MPDO_N > 1024
 #error "CO_MPDO_N: 0...1024 objects and entries"
-#endif
-#if defined(USE_MPDO) || defined(CO_MPDO_SCAN_N) || defined(CO_MPDO_DISPATCH_N)
-#error "USE_MPDO, CO_MPDO_SCAN_N and CO_MPDO_DISPATCH_N were replaced: CO_MPDO_N is the length of both lists"
 #endif
 
 /// Transmission of event-driven TPDOs (types 254 and 255) when the node enters Operational: 0 or 1.
@@ -234,9 +228,6 @@
 #endif
 #if CO_EMCY_QUEUE_N < 0 || CO_EMCY_QUEUE_N > 255
 #error "CO_EMCY_QUEUE_N: 0...255 messages"
-#endif
-#ifdef USE_EMCY_QUEUE
-#error "USE_EMCY_QUEUE was replaced: CO_EMCY_QUEUE_N 0 omits the queue of EMCY messages"
 #endif
 
 /// EMCY consumer: the highest sub-index (node-ID) of 1028h, 0…127.

@@ -49,10 +49,10 @@ inline void end_switching(CO_NODE& node) { node.Transmit.Off = static_cast<uint8
 enum Pending : uint16_t {
   reset_node = 0x01,
   reset_communication = 0x02,
-  commanded = 0x04,   // the reset was commanded by the NMT master
-  configure = 0x08,   // parameters of SDO servers, SDO clients or PDOs were changed
-  mode = 0x20,        // CO_NMT.Next was requested
-  send_emcy = 0x40,   // EMCY messages are queued, or the error register has changed
+  commanded = 0x04,  // the reset was commanded by the NMT master
+  configure = 0x08,  // parameters of SDO servers, SDO clients or PDOs were changed, or SRDOs were ended by CODictInit()
+  mode = 0x20,       // CO_NMT.Next was requested
+  send_emcy = 0x40,  // EMCY messages are queued, or the error register has changed
   send_tpdos = 0x80,  // event-driven TPDOs are marked; not while OdLock is held
   overrun = 0x100,    // CONodeRealTime() has lost frames
 };

@@ -44,7 +44,7 @@ class Part {
   using Sender = bool (*)(CO_NODE& node, uint16_t number);
   CO_COLUMN(free, Sender, nullptr)
 
-  // The NMT state has changed. A reset begins; "reset node" begins.
+  // mode: the NMT state has changed. reset: a reset begins. reset_node: before it, if it is that of the application.
   CO_COLUMN(mode, Function, nullptr)
   CO_COLUMN(reset, Function, nullptr)
   CO_COLUMN(reset_node, Function, nullptr)
@@ -65,7 +65,8 @@ class Part {
     return part;
   }
 
-  // Parameters have changed. The dictionary was replaced: before functions of the application run, then.
+  // configure: parameters have changed. halt: the dictionary was replaced, and no function of the application has run
+  // since. remap: then, the objects in it are found again.
   CO_COLUMN(configure, Function, nullptr)
   CO_COLUMN(halt, Function, nullptr)
   CO_COLUMN(remap, Function, nullptr)

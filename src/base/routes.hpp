@@ -35,6 +35,7 @@ constexpr unsigned receivers_before(PartId part) {
   return number;
 }
 inline constexpr unsigned receivers = receivers_before(PartId::count);
+static_assert(receivers <= 16, "CO_ROUTES.Owner has 4 bits for the receiver");
 
 // Returns the number of routes of the parts before this one.
 constexpr unsigned routes_before(PartId part) {

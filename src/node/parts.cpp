@@ -51,7 +51,8 @@ bool continue_sender(CO_NODE& node, uint16_t sender) {
   constexpr uint16_t own = rows[row].is_present ? rows[row].senders : 0;
   if constexpr (own != 0) {
     if (sender < own) {
-      return rows[row].part.of_free(node, sender);
+      constexpr auto function = rows[row].part.of_free;
+      return function(node, sender);
     }
   }
   if constexpr (row + 1 < row_num) {

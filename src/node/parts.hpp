@@ -36,6 +36,7 @@ struct Row {
   Part part;
 };
 
+// Read by the compiler only: without optimisation, too, no function of a part that is left out is linked.
 inline constexpr Row rows[] = {
 #define CO_ROW(name, instances, routes, senders, permission) {(instances) != 0, senders, permission, name::part},
     CO_PARTS(CO_ROW)
@@ -60,7 +61,8 @@ constexpr bool has() {
 template <auto column, size_t row = 0, class... Arguments>
 [[gnu::always_inline]] inline void run(CO_NODE& node, const Arguments&... arguments) {
   if constexpr (has<column, row>()) {
-    (void)(rows[row].part.*column)(node, arguments...);
+    constexpr auto function = rows[row].part.*column;
+    (void)function(node, arguments...);
   }
   if constexpr (row + 1 < row_num) {
     run<column, row + 1>(node, arguments...);
@@ -71,7 +73,8 @@ template <auto column, size_t row = 0, class... Arguments>
 template <auto column, size_t row = 0, class Result, class Node, class... Arguments>
 [[gnu::always_inline]] inline Result ask(Result otherwise, Node& node, const Arguments&... arguments) {
   if constexpr (has<column, row>()) {
-    return (rows[row].part.*column)(node, arguments...);
+    constexpr auto function = rows[row].part.*column;
+    return function(node, arguments...);
   } else if constexpr (row + 1 < row_num) {
     return ask<column, row + 1>(otherwise, node, arguments...);
   } else {
@@ -83,9 +86,10 @@ template <auto column, size_t row = 0, class Result, class Node, class... Argume
 template <size_t row = 0>
 [[gnu::always_inline]] inline void send_deferred(CO_NODE& node) {
   if constexpr (has<&Part::of_deferred, row>()) {
-    constexpr Part part = rows[row].part;
-    if (event::runnable(node, part.pending) != 0) {
-      part.of_deferred(node);
+    constexpr unsigned bit = rows[row].part.pending;
+    constexpr auto function = rows[row].part.of_deferred;
+    if (event::runnable(node, bit) != 0) {
+      function(node);
     }
   }
   if constexpr (row + 1 < row_num) {

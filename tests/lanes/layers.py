@@ -159,7 +159,7 @@ PLANTED = {
     "wire includes the dictionary": ("src/wire/sdo.hpp", '#include "dictionary/dict.hpp"'),
     "hal includes the queue of frames": ("src/hal/port.cpp", '#include "base/transmit.cpp"'),
     "the dictionary includes a service": ("src/dictionary/dict.cpp", '#include "service/nmt/nmt.hpp"'),
-    "a type includes the node": ("src/dictionary/types/string.cpp", '#include "node/services.cpp"'),
+    "a type includes the node": ("src/dictionary/types/string.cpp", '#include "node/parts.hpp"'),
     "a service includes another service": ("src/service/pdo/pdo.cpp", '#  include "service/nmt/nmt.hpp"'),
     "a service includes one that extends it": ("src/service/pdo/pdo.cpp", '#include "service/mpdo/mpdo.hpp"'),
     "a service that extends another one includes a third one": ("src/service/mpdo/mpdo.cpp", '#include "service/nmt/nmt.hpp"'),

@@ -8,6 +8,7 @@
 #include "co_cfg.h"
 
 /// \cond internal
+// The first three rows are states of the controller and of the bus; a new row is placed at the end.
 // X(fault, code, bit, led). code: EMCY error code [301:7.2.7]. bit: CO_EMCY_BIT_.... led: CO_LED_... that it sets, or
 // 0.
 #define CO_FAULTS(X)                                                                         \

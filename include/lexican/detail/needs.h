@@ -13,6 +13,17 @@
 
 #include "co_cfg.h"
 
+// Settings that are gone. Here, because an application may have a co_cfg.h that replaces the one of the library.
+#ifdef USE_CSDO_BLOCK
+#error "USE_CSDO_BLOCK was replaced: CO_CSDO_BLOCK 0 omits the block transfer of SDO clients"
+#endif
+#if defined(USE_MPDO) || defined(CO_MPDO_SCAN_N) || defined(CO_MPDO_DISPATCH_N)
+#error "USE_MPDO, CO_MPDO_SCAN_N and CO_MPDO_DISPATCH_N were replaced: CO_MPDO_N is the length of both lists"
+#endif
+#ifdef USE_EMCY_QUEUE
+#error "USE_EMCY_QUEUE was replaced: CO_EMCY_QUEUE_N 0 omits the queue of EMCY messages"
+#endif
+
 /// Follows the declaration of a function or of a variable, or precedes one that has several names:
 /// CO_ERR COTimeSend(struct CO_NODE_T* node) CO_NEEDS(USE_TIME);
 #define CO_NEEDS(setting) CO_IF_ZERO(setting, CO_LEFT_OUT("needs " #setting " above 0 in co_cfg.h"), )

@@ -80,9 +80,9 @@ typedef struct CO_GUARDING_T {  ///< node guarding and life guarding
 #endif
 /// \endcond
 
-/// A node. The application uses members as handles (&node.Dict, &node.Emcy, &node.Nmt, &node.Tmr, …), reads NodeId and
-/// Baudrate, and must not access any other member. Frequently used members come first, where small CPUs reach them with
-/// one instruction.
+/// A node. The application uses members as handles (&node.Dict, &node.Emcy, &node.Nmt, &node.Tmr, …) and may read
+/// NodeId, Baudrate, Error, Nmt.Mode, Dict.Num, CSdo and HbCons; it must not access any other member. Frequently used
+/// members come first, where small CPUs reach them with one instruction.
 typedef struct CO_NODE_T {
   uint8_t NodeId;    ///< 1…127, or CO_LSS_NO_NODE_ID: unconfigured
   uint8_t State;     ///< bits: initialised and running, working (processing a frame, a timer of the stack or an access)

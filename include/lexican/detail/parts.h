@@ -12,6 +12,9 @@
 // parts receive and deferred messages. part: namespace of its co::Part. instances: 0 if the configuration leaves it
 // out. routes: identifiers that it receives. senders: of frames that continue when the controller accepts them.
 // permission: CO_..._ALLOWED bit that the NMT state must have for its frames.
+// Order that matters: error_control before heartbeat_consumer, which may receive the same frames; mpdo before pdo,
+// which configures it; emcy before tpdo, because EMCY messages are sent first; tpdo before rpdo, because a SYNC samples
+// TPDOs before it writes the data of RPDOs. A new row is placed at the end, if it has no such reason.
 #define CO_PARTS(X)                                                    \
   X(nmt, 1, 1, 0, CO_NMT_ALLOWED)                                      \
   X(error_behaviour, 1, 0, 0, CO_NMT_ALLOWED)                          \

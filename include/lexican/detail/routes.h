@@ -28,7 +28,7 @@ typedef struct CO_ROUTES_T {  ///< routing table: the service instances that con
   /// USE_FAST_PATHS 0 one class holds all routes.
   CO_ROUTE_NUM Start[CO_ROUTE_CLASS_N + 1];
   uint32_t Id[CO_ROUTE_N + 1];  ///< identifiers with flags, ascending, then an end mark that is no identifier
-  uint16_t Owner[CO_ROUTE_N];   ///< service in bits 15…12, number of its instance in bits 11…0
+  uint16_t Owner[CO_ROUTE_N];   ///< receiver in bits 15…12, number of its instance in bits 11…0
 } CO_ROUTES;
 #else
 typedef struct CO_ROUTES_T {    ///< identifier that each service instance consumes, with flags

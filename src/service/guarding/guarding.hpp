@@ -15,7 +15,7 @@ void init(CO_NODE& node);
 // frame: it counts as malformed unless another service processes it. number: not used.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
-// With USE_GUARDING 0 none of these exists.
+// With USE_GUARDING 0 these are not defined.
 
 // Sets the toggle bit of the next response to 0, and clears the state of life guarding that the NMT master is missing.
 void reset(CO_NODE& node);

@@ -166,9 +166,6 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC&) {
   }
 }
 
-void begin_window(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
-void end_window(CO_NODE& node) { node.WindowOver = 1; }
-
 void remap(CO_NODE& node) { for_each(node, remap_one); }
 
 }  // namespace co::pdo

@@ -31,8 +31,8 @@ void sample(CO_NODE& node, uint8_t counter);
 void apply(CO_NODE& node, uint8_t counter);
 
 // Begin and end the synchronous window; outside of it synchronous RPDOs are ignored.
-void begin_window(CO_NODE& node, uint8_t counter);
-void end_window(CO_NODE& node);
+inline void begin_window(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
+inline void end_window(CO_NODE& node) { node.WindowOver = 1; }
 
 // Withdraws synchronous TPDOs: at the end of the synchronous window, and when the controller is not on the bus.
 void flush(CO_NODE& node);

@@ -98,7 +98,7 @@ class Configuration {
   }
 
   void need(std::string_view macro) {
-    if (macro.substr(0, 4) == "USE_") {
+    if (macro.substr(0, 4) == "USE_" || macro == "CO_MPDO_N") {
       needs_.emplace(macro);
     }
   }
