@@ -172,7 +172,7 @@ CO_ERR COLssmActivateBitTiming(CO_LSSM* lssm, uint16_t delay, uint32_t baudrate,
 CO_ERR COLssmStore(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
 /// Inquires one part of the address of the slave, CO_LSSM_VENDOR…CO_LSSM_SERIAL. The result is in CO_LSSM.Value.
-CO_ERR COLssmInquire(CO_LSSM* lssm, uint8_t part, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
+CO_ERR COLssmInquire(CO_LSSM* lssm, uint8_t which, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
 /// Inquires the node-ID of the slave. The result is in CO_LSSM.Value, 255 if it has none.
 CO_ERR COLssmInquireNodeId(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="forbidden symbols in the library: heap, exceptions, C++ run time, static objects, software floating point"
+about="forbidden symbols in the library: parts that are left out, heap, exceptions, C++ run time, static objects, software floating point"
 minutes=1
 . "$root/tests/lanes/library.sh"
 packages=("${build_packages[@]}" clang "${arm_packages[@]}" python3)
@@ -15,6 +15,8 @@ lane() {
     library gcc-size "$build/symbols-gcc/src/liblexican.a" nm objdump
   build_library symbols-clang -Os -DLEXICAN_PRESET=full -DCMAKE_CXX_COMPILER=clang++ &&
     library clang-size "$build/symbols-clang/src/liblexican.a" nm objdump
+  build_library symbols-slave -O0 -DLEXICAN_PRESET=slave -DCMAKE_CXX_COMPILER=g++ &&
+    check "slave without optimisation: no function of a part that is left out" needs_only_allowed nm "$build/symbols-slave/src/liblexican.a"
   targets=(lexican_full)
   build_m0plus -DLEXICAN_SIZES=ON &&
     library cortex-m0plus "$build/m0plus/tests/sizes/liblexican_full.a" arm-none-eabi-nm arm-none-eabi-objdump

@@ -364,8 +364,8 @@ CO_ERR COLssmStore(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) {
   return start(lssm, callback, first(Lss::store), true, 0);
 }
 
-CO_ERR COLssmInquire(CO_LSSM* lssm, uint8_t part, CO_LSSM_CALLBACK callback) {
-  return start(lssm, callback, first(Lss::inquire) + part, part < wire::lss_address_parts, 0);
+CO_ERR COLssmInquire(CO_LSSM* lssm, uint8_t which, CO_LSSM_CALLBACK callback) {
+  return start(lssm, callback, first(Lss::inquire) + which, which < wire::lss_address_parts, 0);
 }
 
 CO_ERR COLssmInquireNodeId(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) {
