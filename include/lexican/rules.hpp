@@ -138,7 +138,7 @@ constexpr bool has_letter(const char* flags, char letter) {
                              last,                                                                 \
                              first_sub,                                                            \
                              last_sub,                                                             \
-                             has_letter(#flags, 'D') ? bytes : 0,                                  \
+                             (bytes) * (has_letter(#flags, 'D') ? 1 : 0),                          \
                              has_letter(#flags, 'N'),                                              \
                              has_letter(#flags, 'T')};
 CO_OBJECTS(CO_OBJECT_RULE)

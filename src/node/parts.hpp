@@ -30,9 +30,9 @@
 namespace co::parts {
 
 struct Row {
-  bool is_present;
-  uint16_t senders;
-  uint8_t allowed;  // CO_..._ALLOWED bit that the NMT state must have for its frames
+  bool is_present = false;
+  uint16_t senders = 0;
+  uint8_t allowed = 0;  // CO_..._ALLOWED bit that the NMT state must have for its frames
   Part part;
 };
 

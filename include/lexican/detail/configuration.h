@@ -39,10 +39,12 @@
 
 // Whether a value is a number without operators: not 4 + 2, because 4 + 2 * 9 is not (4 + 2) * 9; not 2 * 3, because
 // 999999 / 2 * 3 is not 999999 / (2 * 3); and not (4 + 2).
+// NOLINTBEGIN(bugprone-macro-parentheses): the expressions without parentheses are what is compared
 #define CO_IS_PLAIN(name, setting)                                                           \
   &&CO_SECOND_OF(CO_IN_PARENTHESES setting, 1, ~) && (setting * 9 + 5) == (setting)*9 + 5 && \
       ((setting) == 0 || 999999 / setting == 999999 / (setting))
 #define CO_IN_PARENTHESES(...) ~, 0
+// NOLINTEND(bugprone-macro-parentheses)
 
 #if defined(__ELF__) && defined(__GNUC__) && 1 CO_CONFIGURATION(CO_IS_PLAIN)
 #define CO_TEXT_OF(value) #value

@@ -37,6 +37,7 @@
 #define CO_FAULTS_OF_SRDO(X)
 #endif
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a term of a sum
 #define CO_COUNT_FAULT(fault, code, bit, led) +1
 #define CO_EMCY_FAULT_N (0 CO_FAULTS(CO_COUNT_FAULT))
 /// \endcond

@@ -40,6 +40,7 @@
   X(recorder, USE_RECORDER, 0, 0, CO_NMT_ALLOWED)
 
 // Number of routes of a node.
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a term of a sum
 #define CO_ROUTES_OF(part, instances, routes, senders, permission) +((instances) != 0 ? (routes) : 0)
 #define CO_ROUTE_N (0 CO_PARTS(CO_ROUTES_OF))
 /// \endcond
