@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parameters in the last two pages of each bank of an STM32G4 with 512 KB and two banks (DBANK = 1): pages of 2 KB,
 // programmed in double words with an error-correcting code. Source: RM0440, 3.3 and 3.7 (registers).
+#include "flash_access.h"
 #include "flash_stm32.h"
 
 #define FLASH_ACR 0x40022000u
@@ -9,13 +10,16 @@
 #define FLASH_CR 0x40022014u
 #define FLASH_ECCR 0x40022018u
 
+#define ACR_DCEN (1u << 10)
+#define ACR_DCRST (1u << 12)
+#define SR_BSY (1u << 16)
 #define SR_ERRORS 0xC3FAu  // OPTVERR, RDERR, FASTERR, MISERR, PGSERR, SIZERR, PGAERR, WRPERR, PROGERR, OPERR
-
-#include "flash_stm32_control.h"
-
+#define CR_PG (1u << 0)
 #define CR_PER (1u << 1)
 #define CR_PNB(page) ((page) << 3)
 #define CR_BKER (1u << 11)
+#define CR_STRT (1u << 16)
+#define CR_LOCK (1u << 31)
 #define ECCR_DAMAGED ((1u << 31) | (1u << 29))  // ECCD, ECCD2: two wrong bits
 
 static volatile bool IsReading;
@@ -30,6 +34,35 @@ bool FlashStm32g4Nmi(void) {
   IsDamaged = true;
   Store(FLASH_ECCR, Load(FLASH_ECCR) | ECCR_DAMAGED);
   return true;
+}
+
+static bool Begin(uint32_t control) {
+  if (!AwaitClear(FLASH_SR, SR_BSY)) {
+    return false;
+  }
+  Store(FLASH_SR, SR_ERRORS);
+  if ((Load(FLASH_CR) & CR_LOCK) != 0) {
+    Store(FLASH_KEYR, 0x45670123u);
+    Store(FLASH_KEYR, 0xCDEF89ABu);
+  }
+  Store(FLASH_CR, control);
+  return (Load(FLASH_CR) & CR_LOCK) == 0;
+}
+
+static bool End(void) {
+  const bool ended = AwaitClear(FLASH_SR, SR_BSY);
+  const uint32_t errors = Load(FLASH_SR) & SR_ERRORS;
+  Store(FLASH_CR, CR_LOCK);
+  return ended && errors == 0;
+}
+
+// Empties the data cache, which may contain bytes from before an erase.
+static void EmptyCache(void) {
+  const uint32_t acr = Load(FLASH_ACR);
+  Store(FLASH_ACR, acr & ~ACR_DCEN);
+  Store(FLASH_ACR, (acr & ~ACR_DCEN) | ACR_DCRST);
+  Store(FLASH_ACR, acr & ~ACR_DCEN);
+  Store(FLASH_ACR, acr);
 }
 
 static bool ErasePage(void* ctx, uint32_t address, uint32_t number) {
