@@ -283,7 +283,7 @@ TEST_CASE("plot: lost segments are generated again [R4]") {
     RecorderNode node(recorded);
     record(node, 1, 600);
     const std::string expected = node.plot();
-    for (unsigned seed = 0; seed < 400; seed += stride(2)) {
+    for (unsigned seed = 0; seed < 200; seed += stride(5)) {
       CAPTURE(format);
       CAPTURE(seed);
       node.recorder.Held = 600;  // the points are still in the memory
