@@ -222,7 +222,7 @@ constexpr Type type_of(const CO_OBJ& entry) {
       continue;
     }
     found = known;
-    if (rules::is_place(known.rule, entry.Key)) {
+    if (rules::allows(known.rule, entry.Key)) {
       break;
     }
   }
@@ -297,7 +297,7 @@ constexpr bool has_standard_width(std::uint32_t key, std::uint8_t width) {
     return true;
   }
   for (const Type& known : types) {
-    if (known.rule.last_index < behind && rules::is_place(known.rule, key)) {
+    if (known.rule.last_index < behind && rules::allows(known.rule, key)) {
       return known.width == 0 || width == known.width;
     }
   }
@@ -383,34 +383,35 @@ constexpr std::uintptr_t mapped_number(std::uint16_t index) {
   return content<Od>(number) == Content::address ? highest : Od[number].Data.value();
 }
 
-/// Returns the value of the mapping entry at \a place if it is a constant of the table and one of the first \a number
-/// entries, otherwise 0. The value of a mapping in a variable is unknown to the compiler. Static data types, which skip
-/// bytes, and multiplex PDOs (FEh and FFh), which do not use their mapping entries, are 0, too. \a rule: PDOs or SRDOs
+/// Returns the value of the mapping entry at \a position if it is a constant of the table and one of the first \a
+/// number entries, otherwise 0. The value of a mapping in a variable is unknown to the compiler. Static data types,
+/// which skip bytes, and multiplex PDOs (FEh and FFh), which do not use their mapping entries, are 0, too. \a rule:
+/// PDOs or SRDOs
 template <const auto& Od>
-constexpr std::uint32_t mapped_by(const rules::Rule& rule, std::size_t place, std::uintptr_t number) {
-  const std::uint32_t key = Od[place].Key;
-  const bool is_mapping = rules::is_place(rule, key) && rules::has(key, CO_OBJ_D_____);
+constexpr std::uint32_t mapped_by(const rules::Rule& rule, std::size_t position, std::uintptr_t number) {
+  const std::uint32_t key = Od[position].Key;
+  const bool is_mapping = rules::allows(rule, key) && rules::has(key, CO_OBJ_D_____);
   if (!is_mapping || number > rules::pdo_mapping.last_sub || rules::sub_of(key) > number ||
-      content<Od>(place) != Content::value) {
+      content<Od>(position) != Content::value) {
     return 0;
   }
-  const auto mapping = static_cast<std::uint32_t>(Od[place].Data.value());
+  const auto mapping = static_cast<std::uint32_t>(Od[position].Data.value());
   return rules::is_static_type(mapping) ? 0 : mapping;
 }
 
 /// Like the function above, with the number that the table has.
 template <const auto& Od>
-constexpr std::uint32_t mapped_by(const rules::Rule& rule, std::size_t place) {
-  return rules::is_place(rule, Od[place].Key)
-             ? mapped_by<Od>(rule, place, mapped_number<Od>(rules::index_of(Od[place].Key)))
+constexpr std::uint32_t mapped_by(const rules::Rule& rule, std::size_t position) {
+  return rules::allows(rule, Od[position].Key)
+             ? mapped_by<Od>(rule, position, mapped_number<Od>(rules::index_of(Od[position].Key)))
              : 0;
 }
 
 /// Returns whether a constant mapping of an ordinary PDO contains the object of a mapping value.
 template <const auto& Od>
 constexpr bool is_in_pdo(std::uint32_t mapping) {
-  for (std::size_t place = 0; place < length(Od); ++place) {
-    if ((mapped_by<Od>(rules::pdo_mapping, place) >> 8) == (mapping >> 8)) {
+  for (std::size_t position = 0; position < length(Od); ++position) {
+    if ((mapped_by<Od>(rules::pdo_mapping, position) >> 8) == (mapping >> 8)) {
       return true;
     }
   }
@@ -421,8 +422,8 @@ constexpr bool is_in_pdo(std::uint32_t mapping) {
 /// none.
 template <const auto& Od>
 constexpr std::uint32_t find_shared() {
-  for (std::size_t place = 0; place < length(Od); ++place) {
-    const std::uint32_t mapping = mapped_by<Od>(rules::srdo_mapping, place);
+  for (std::size_t position = 0; position < length(Od); ++position) {
+    const std::uint32_t mapping = mapped_by<Od>(rules::srdo_mapping, position);
     if (mapping != 0 && is_in_pdo<Od>(mapping)) {
       return mapping;
     }
@@ -481,24 +482,25 @@ constexpr MappingState mapping_state(std::size_t entries, std::uint16_t index) {
   state.entries = entries;
   state.index = index;
   state.number = mapped_number<Od>(index);
-  const bool is_pdo = rules::is_place(rules::pdo_mapping, key_of(index, 1));
+  const bool is_pdo = rules::allows(rules::pdo_mapping, key_of(index, 1));
   state.is_ignored = is_pdo && has_constant<Od>(key_of(static_cast<std::uint16_t>(index - to_communication), 1), off);
   state.is_counted = has_constant<Od>(key_of(index, 0), 0);
   return state;
 }
 
-/// Checks the mapping entry at \a place, if it is constant and the PDO is not switched off.
+/// Checks the mapping entry at \a position, if it is constant and the PDO is not switched off.
 template <const auto& Od, bool Complete>
-constexpr Finding check_mapping(std::size_t place, MappingState& state) {
-  const std::uint32_t key = Od[place].Key;
-  const bool is_srdo = rules::is_place(rules::srdo_mapping, key);
-  if (!is_srdo && !rules::is_place(rules::pdo_mapping, key)) {
+constexpr Finding check_mapping(std::size_t position, MappingState& state) {
+  const std::uint32_t key = Od[position].Key;
+  const bool is_srdo = rules::allows(rules::srdo_mapping, key);
+  if (!is_srdo && !rules::allows(rules::pdo_mapping, key)) {
     return {CO_DICT_OK, 0};
   }
   if (state.index != rules::index_of(key)) {
     state = mapping_state<Od>(state.entries, rules::index_of(key));
   }
-  const std::uint32_t mapping = mapped_by<Od>(is_srdo ? rules::srdo_mapping : rules::pdo_mapping, place, state.number);
+  const std::uint32_t mapping =
+      mapped_by<Od>(is_srdo ? rules::srdo_mapping : rules::pdo_mapping, position, state.number);
   if (mapping == 0 || state.is_ignored) {
     return {CO_DICT_OK, 0};
   }
@@ -522,8 +524,8 @@ template <const auto& Od, bool Complete>
 constexpr Finding check_mappings() {
   MappingState state;
   state.entries = entries(Od);
-  for (std::size_t place = 0; place < length(Od); ++place) {
-    const Finding finding = check_mapping<Od, Complete>(place, state);
+  for (std::size_t position = 0; position < length(Od); ++position) {
+    const Finding finding = check_mapping<Od, Complete>(position, state);
     if (finding.fault != CO_DICT_OK) {
       return finding;
     }

@@ -169,7 +169,7 @@ constexpr bool is_index(const Rule& rule, std::uint16_t index) {
 }
 
 /// Returns whether a rule allows the index and the sub-index of a key.
-constexpr bool is_place(const Rule& rule, std::uint32_t key) {
+constexpr bool allows(const Rule& rule, std::uint32_t key) {
   constexpr std::uint16_t from_rpdo_to_tpdo = 0x0400;
   const bool of_tpdo = rule.of_pdo && is_index(rule, static_cast<std::uint16_t>(index_of(key) - from_rpdo_to_tpdo));
   return (is_index(rule, index_of(key)) || of_tpdo) && sub_of(key) >= rule.first_sub && sub_of(key) <= rule.last_sub;
@@ -191,7 +191,7 @@ constexpr CO_DICT_FAULT check_type(const Rule& rule, std::uint32_t key, bool has
   if (is_static_type(key)) {
     return has_data ? CO_DICT_RESERVED_INDEX : CO_DICT_OK;
   }
-  if (!is_place(rule, key)) {
+  if (!allows(rule, key)) {
     return CO_DICT_WRONG_PLACE;
   }
   if (has(key, CO_OBJ_D_____) && !may_be_direct(rule)) {

@@ -56,8 +56,8 @@ template <std::size_t Number>
 constexpr std::uint16_t signature(const Parameter& parameter, const std::uint32_t (&mapping)[Number]) {
   static_assert(Number <= 16 && Number % 2 == 0, "an SRDO maps 2, 4, ... 16 objects");
   std::uint16_t crc = begin_signature(parameter, static_cast<std::uint8_t>(Number));
-  for (std::size_t place = 0; place < Number; ++place) {
-    crc = add_mapping(crc, static_cast<std::uint8_t>(place + 1), mapping[place]);
+  for (std::size_t slot = 0; slot < Number; ++slot) {
+    crc = add_mapping(crc, static_cast<std::uint8_t>(slot + 1), mapping[slot]);
   }
   return crc;
 }

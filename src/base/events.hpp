@@ -19,17 +19,17 @@ void enter_requested_mode(CO_NODE& node);
 // Bits of CO_NODE.State. CONodeProcess() processes a frame only where running is set and nothing else.
 enum State : uint8_t {
   running = 0x01,  // the NMT state is not CO_INVALID
-  serving = 0x02,  // a frame, a timer of the stack, an access, … is processed: requests are deferred
+  working = 0x02,  // a frame, a timer of the stack, an access, … is processed: requests are deferred
 };
-[[nodiscard]] inline bool is_serving(const CO_NODE& node) { return (node.State & serving) != 0; }
+[[nodiscard]] inline bool is_working(const CO_NODE& node) { return (node.State & working) != 0; }
 
 // Scope in which the node works. Scopes may nest.
-class Serving {
+class Working {
  public:
-  [[gnu::always_inline]] explicit Serving(CO_NODE& node) : node_(node), before_(node.State) { node.State |= serving; }
-  Serving(const Serving&) = delete;
-  Serving& operator=(const Serving&) = delete;
-  [[gnu::always_inline]] ~Serving() { node_.State &= static_cast<uint8_t>(before_ | ~serving); }
+  [[gnu::always_inline]] explicit Working(CO_NODE& node) : node_(node), before_(node.State) { node.State |= working; }
+  Working(const Working&) = delete;
+  Working& operator=(const Working&) = delete;
+  [[gnu::always_inline]] ~Working() { node_.State &= static_cast<uint8_t>(before_ | ~working); }
 
  private:
   CO_NODE& node_;
@@ -161,12 +161,12 @@ void send_deferred(CO_NODE& node);
 // work if this is the outermost call.
 class Call {
  public:
-  [[gnu::always_inline]] explicit Call(CO_NODE& node) : node_(node), before_(node.State) { node.State |= serving; }
+  [[gnu::always_inline]] explicit Call(CO_NODE& node) : node_(node), before_(node.State) { node.State |= working; }
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
   [[gnu::always_inline]] ~Call() {
     if constexpr (USE_FAST_PATHS != 0) {
-      node_.State &= static_cast<uint8_t>(before_ | ~serving);
+      node_.State &= static_cast<uint8_t>(before_ | ~working);
       run_deferred(node_);
     } else {
       end_call(node_, before_);

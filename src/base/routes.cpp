@@ -12,38 +12,38 @@ namespace {
 
 constexpr uint8_t end = CO_ROUTE_CLASS_N;
 
-// Adds by to the positions of the first routes of all function codes behind that of the identifier.
+// Adds by to the slots of the first routes of all function codes behind that of the identifier.
 void shift_starts(CO_ROUTES& routes, uint32_t identifier, int by) {
   for (unsigned n = class_of(identifier) + 1U; n <= end; ++n) {
     routes.Start[n] = static_cast<CO_ROUTE_NUM>(routes.Start[n] + by);
   }
 }
 
-// Returns whether the route at this position follows the route of identifier and owner.
-bool is_behind(const CO_ROUTES& routes, unsigned place, uint32_t identifier, uint16_t owner) {
-  return routes.Id[place] > identifier || (routes.Id[place] == identifier && routes.Owner[place] > owner);
+// Returns whether the route at this slot follows the route of identifier and owner.
+bool is_behind(const CO_ROUTES& routes, unsigned slot, uint32_t identifier, uint16_t owner) {
+  return routes.Id[slot] > identifier || (routes.Id[slot] == identifier && routes.Owner[slot] > owner);
 }
 
-// Returns the position behind the routes of a function code that begin at a position and are in their order.
-[[maybe_unused]] unsigned end_of_class(const CO_ROUTES& routes, unsigned place, unsigned function_code) {
-  while (routes.Id[place] != no_identifier && class_of(routes.Id[place]) == function_code &&
-         (place == 0 || is_behind(routes, place, routes.Id[place - 1], routes.Owner[place - 1]))) {
-    ++place;
+// Returns the slot behind the routes of a function code that begin at a slot and are in their order.
+[[maybe_unused]] unsigned end_of_class(const CO_ROUTES& routes, unsigned slot, unsigned function_code) {
+  while (routes.Id[slot] != no_identifier && class_of(routes.Id[slot]) == function_code &&
+         (slot == 0 || is_behind(routes, slot, routes.Id[slot - 1], routes.Owner[slot - 1]))) {
+    ++slot;
   }
-  return place;
+  return slot;
 }
 
 // Returns whether the routes are in their order, end with the mark, and Start has the first route of each function
 // code. For assertions.
 [[maybe_unused]] bool is_consistent(const CO_ROUTES& routes) {
-  unsigned place = 0;
+  unsigned slot = 0;
   for (unsigned n = 0; n < end; ++n) {
-    if (routes.Start[n] != place) {
+    if (routes.Start[n] != slot) {
       return false;
     }
-    place = end_of_class(routes, place, n);
+    slot = end_of_class(routes, slot, n);
   }
-  return routes.Start[end] == place && routes.Id[place] == no_identifier;
+  return routes.Start[end] == slot && routes.Id[slot] == no_identifier;
 }
 
 void move(CO_ROUTES& routes, unsigned to, unsigned from) {
@@ -62,13 +62,13 @@ void add(CO_NODE& node, uint32_t identifier, uint16_t owner) {
   CO_ROUTES& routes = node.Routes;
   CO_ASSERT(receiver_of(owner) < receivers);
   CO_ASSERT(routes.Start[end] < CO_ROUTE_N);
-  unsigned place = routes.Start[end];
-  routes.Id[place + 1] = no_identifier;
-  for (; place > 0 && is_behind(routes, place - 1, identifier, owner); --place) {
-    move(routes, place, place - 1);
+  unsigned slot = routes.Start[end];
+  routes.Id[slot + 1] = no_identifier;
+  for (; slot > 0 && is_behind(routes, slot - 1, identifier, owner); --slot) {
+    move(routes, slot, slot - 1);
   }
-  routes.Id[place] = identifier;
-  routes.Owner[place] = owner;
+  routes.Id[slot] = identifier;
+  routes.Owner[slot] = owner;
   shift_starts(routes, identifier, +1);
   CO_ASSERT(is_consistent(routes));
 }
@@ -76,18 +76,18 @@ void add(CO_NODE& node, uint32_t identifier, uint16_t owner) {
 void remove(CO_NODE& node, uint16_t owner) {
   CO_ROUTES& routes = node.Routes;
   const unsigned num = routes.Start[end];
-  unsigned place = 0;
-  while (place < num && routes.Owner[place] != owner) {
-    ++place;
+  unsigned slot = 0;
+  while (slot < num && routes.Owner[slot] != owner) {
+    ++slot;
   }
-  if (place == num) {
+  if (slot == num) {
     return;
   }
-  shift_starts(routes, routes.Id[place], -1);
-  for (; place + 1 < num; ++place) {
-    move(routes, place, place + 1);
+  shift_starts(routes, routes.Id[slot], -1);
+  for (; slot + 1 < num; ++slot) {
+    move(routes, slot, slot + 1);
   }
-  routes.Id[place] = no_identifier;
+  routes.Id[slot] = no_identifier;
   CO_ASSERT(is_consistent(routes));
 }
 
@@ -98,16 +98,16 @@ void change(CO_NODE& node, uint32_t identifier, uint16_t owner) {
   }
 }
 
-unsigned next(const CO_NODE& node, unsigned place, uint32_t identifier, uint16_t owner) {
+unsigned next(const CO_NODE& node, unsigned slot, uint32_t identifier, uint16_t owner) {
   const CO_ROUTES& routes = node.Routes;
-  if (USE_FAST_PATHS == 0 || place >= routes.Start[end] || !is_at(node, place, identifier) ||
-      routes.Owner[place] != owner) {
-    place = 0;
+  if (USE_FAST_PATHS == 0 || slot >= routes.Start[end] || !is_at(node, slot, identifier) ||
+      routes.Owner[slot] != owner) {
+    slot = 0;
   }
-  while (!is_behind(routes, place, identifier, owner)) {  // true for the end mark
-    ++place;
+  while (!is_behind(routes, slot, identifier, owner)) {  // true for the end mark
+    ++slot;
   }
-  return is_at(node, place, identifier) ? place : nowhere;
+  return is_at(node, slot, identifier) ? slot : nowhere;
 }
 
 void publish(const CO_NODE& node) {
@@ -134,8 +134,8 @@ void publish(const CO_NODE& node) {
   }
   uint32_t sorted[CO_ROUTE_N];
   uint16_t num = 0;
-  for (unsigned place = 0; place < CO_ROUTE_N; ++place) {
-    const uint32_t identifier = node.Routes.Id[place];
+  for (unsigned slot = 0; slot < CO_ROUTE_N; ++slot) {
+    const uint32_t identifier = node.Routes.Id[slot];
     if (identifier != wire::no_frame) {
       uint16_t n = num++;
       for (; n > 0 && sorted[n - 1] > identifier; --n) {

@@ -48,7 +48,7 @@ constexpr unsigned routes_before(PartId part) {
 static_assert(routes_before(PartId::count) == CO_ROUTE_N);
 
 // Returns the owner of a route, an instance (number) of a part: where routes are sorted, the number of its part and its
-// own; otherwise the position of its only route.
+// own; otherwise the slot of its only route.
 template <PartId part>
 [[nodiscard]] constexpr uint16_t owner(unsigned number) {
   constexpr unsigned base = CO_ROUTES_SORTED ? receivers_before(part) << 12 : routes_before(part);
@@ -69,7 +69,7 @@ void remove(CO_NODE& node, uint16_t owner);
 void change(CO_NODE& node, uint32_t identifier, uint16_t owner);
 
 #else
-// Returns the position of the first route of an identifier that is not before from; CO_ROUTE_N if there is none.
+// Returns the slot of the first route of an identifier that is not before from; CO_ROUTE_N if there is none.
 [[nodiscard]] inline unsigned find(CO_NODE& node, uint32_t identifier, unsigned from) {
   uint32_t* const ids = node.Routes.Id;
   ids[CO_ROUTE_N] = identifier;
@@ -107,12 +107,12 @@ inline constexpr unsigned nowhere = ~0U;
 // Identifier of the end mark behind the last route.
 inline constexpr uint32_t no_identifier = ~0U;
 
-// Returns whether the route at this position has the identifier.
-[[nodiscard]] inline bool is_at(const CO_NODE& node, unsigned place, uint32_t identifier) {
-  return node.Routes.Id[place] == identifier;
+// Returns whether the route at this slot has the identifier.
+[[nodiscard]] inline bool is_at(const CO_NODE& node, unsigned slot, uint32_t identifier) {
+  return node.Routes.Id[slot] == identifier;
 }
 
-// Returns the position of the first route of an identifier, or nowhere.
+// Returns the slot of the first route of an identifier, or nowhere.
 [[nodiscard]] inline unsigned find(const CO_NODE& node, uint32_t identifier) {
   constexpr unsigned short_search = 4;
   const CO_ROUTES& routes = node.Routes;
@@ -133,9 +133,9 @@ inline constexpr uint32_t no_identifier = ~0U;
   return routes.Id[first] == identifier ? first : nowhere;
 }
 
-// Returns the position of the next route of the identifier behind the route of owner, or nowhere. place: position of
+// Returns the slot of the next route of the identifier behind the route of owner, or nowhere. slot: slot of
 // that route before its part has processed the frame, which may have changed the routes.
-[[nodiscard]] unsigned next(const CO_NODE& node, unsigned place, uint32_t identifier, uint16_t owner);
+[[nodiscard]] unsigned next(const CO_NODE& node, unsigned slot, uint32_t identifier, uint16_t owner);
 
 [[nodiscard]] constexpr uint8_t receiver_of(uint16_t owner) { return static_cast<uint8_t>(owner >> 12); }
 [[nodiscard]] constexpr uint16_t number_of(uint16_t owner) { return owner & 0x0FFFU; }

@@ -63,7 +63,7 @@ bool is_of(const CO_TMR_MEM& timer, Owner owner) { return timer.Owner == static_
 
 // Makes timers due that have elapsed, and programs the driver. Loops that poll a driver call it many times in each
 // tick, without an effect. A driver with alarms may have called it before its alarm, and needs a new one.
-void serve(CO_TMR& t) {
+void process_clock(CO_TMR& t) {
   if (USE_FAST_PATHS == 0) {
     program(t, synchronise(t));
     return;
@@ -208,13 +208,13 @@ const CO_TMR_MEM& remove_first(CO_TMR& t) {
 }
 
 // Runs the action of an elapsed timer, and the work that it has deferred. The node works during the actions of the
-// stack's timers, not during those of the application. kept: bit serving if the caller keeps the node working
+// stack's timers, not during those of the application. kept: bit working if the caller keeps the node working
 [[gnu::always_inline]] inline void run(CO_NODE& node, const CO_TMR_MEM& timer, unsigned kept) {
   if (!is_of(timer, Owner::pool)) {
-    node.State |= event::serving;
+    node.State |= event::working;
   }
   timer.Func(timer.Para);
-  node.State = static_cast<uint8_t>((node.State & ~unsigned{event::serving}) | kept);
+  node.State = static_cast<uint8_t>((node.State & ~unsigned{event::working}) | kept);
   event::run_deferred(node);
 }
 
@@ -268,7 +268,7 @@ bool run_one(CO_TMR& t, Share share, const Span& span) {
     }
     timer = &remove_elapsed(t, *link);
   }
-  run(*t.Node, *timer, share == Share::real_time ? unsigned{event::serving} : 0U);
+  run(*t.Node, *timer, share == Share::real_time ? unsigned{event::working} : 0U);
   return true;
 }
 
@@ -284,12 +284,12 @@ void run_in_turns(CO_TMR& t, void (*before)(CO_NODE& node)) {
   Span span = {};
   bool more = false;
   {
-    const port::NodeLock turn(*t.Node);
+    const port::NodeLock lock(*t.Node);
     before(*t.Node);
     more = find_span(t, share, span);
   }
   while (more) {
-    const port::NodeLock turn(*t.Node);
+    const port::NodeLock lock(*t.Node);
     more = run_one(t, share, span);
   }
 }
@@ -522,7 +522,7 @@ int16_t COTmrService(CO_TMR* tmr) {
   ASSERT_PTR_ERR(tmr, -1);
   ASSERT_PTR_ERR(tmr->Node, -1);
   if (port::is_initialised(*tmr->Node) && port::has_elapsed(*tmr->Node)) {
-    tmr::serve(*tmr);
+    tmr::process_clock(*tmr);
   }
   return tmr::has_due(*tmr) || tmr::has_to_send(*tmr->Node) ? 1 : 0;
 }

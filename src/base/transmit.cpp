@@ -32,21 +32,21 @@ bool may_send_next(const CO_NODE& node) {
   return node.Transmit.Off == 0 && node.Nmt.Mode > (node.TxQueue.Fixed != 0 ? CO_INVALID : CO_INIT);
 }
 
-void insert(CO_TX_QUEUE& queue, unsigned place, const CO_IF_FRM& frame) {
-  CO_ASSERT(place <= queue.Num && queue.Num < queue.Len);
-  for (unsigned n = queue.Num; n > place; --n) {
+void insert(CO_TX_QUEUE& queue, unsigned position, const CO_IF_FRM& frame) {
+  CO_ASSERT(position <= queue.Num && queue.Num < queue.Len);
+  for (unsigned n = queue.Num; n > position; --n) {
     queue.Frame[n] = queue.Frame[n - 1];
   }
-  queue.Frame[place] = frame;
+  queue.Frame[position] = frame;
   ++queue.Num;
 }
 
-unsigned place_of(const CO_TX_QUEUE& queue, uint32_t wanted) {
-  unsigned place = queue.Num;
-  while (place > queue.Fixed && rank(queue.Frame[place - 1]) > wanted) {
-    --place;
+unsigned position_of(const CO_TX_QUEUE& queue, uint32_t wanted) {
+  unsigned position = queue.Num;
+  while (position > queue.Fixed && rank(queue.Frame[position - 1]) > wanted) {
+    --position;
   }
-  return place;
+  return position;
 }
 
 void remove_first(CO_TX_QUEUE& queue) {
@@ -57,12 +57,12 @@ void remove_first(CO_TX_QUEUE& queue) {
   queue.Fixed = static_cast<uint16_t>(queue.Fixed == 0 ? 0 : queue.Fixed - 1);
 }
 
-bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
-  if (node.TxQueue.Num >= places) {
+bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t limit) {
+  if (node.TxQueue.Num >= limit) {
     count(node.Count.Dropped);
     return false;
   }
-  insert(node.TxQueue, place_of(node.TxQueue, rank(frame)), frame);
+  insert(node.TxQueue, position_of(node.TxQueue, rank(frame)), frame);
   CO_ASSERT(is_consistent(node.TxQueue));
   return true;
 }
@@ -91,7 +91,7 @@ bool try_now(CO_NODE& node, const CO_IF_FRM& frame) {
 
 // Returns the elements of the queue that frames of the application may use. The others are reserved for the node's own
 // frames: one of each SDO server and client, an EMCY message and a heartbeat, but at most half the queue.
-uint16_t places_for_application(const CO_TX_QUEUE& queue) {
+uint16_t limit_for_application(const CO_TX_QUEUE& queue) {
   constexpr uint16_t own = 2 + CO_SSDO_N + (USE_CSDO != 0 ? CO_CSDO_N : 0);
   const auto half = static_cast<uint16_t>(queue.Len / 2);
   return static_cast<uint16_t>(queue.Len - (own < half ? own : half));
@@ -131,7 +131,7 @@ bool send(CO_NODE& node, const CO_IF_FRM& frame) {
 }
 
 bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame) {
-  return try_now(node, frame) || enqueue(node, frame, places_for_application(node.TxQueue));
+  return try_now(node, frame) || enqueue(node, frame, limit_for_application(node.TxQueue));
 }
 
 void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) {
@@ -201,7 +201,7 @@ bool is_queued(const CO_NODE& node, uint32_t identifier) {
   return n < queue.Num;
 }
 
-bool has_place_for_application(const CO_NODE& node) { return node.TxQueue.Num < places_for_application(node.TxQueue); }
+bool has_room_for_application(const CO_NODE& node) { return node.TxQueue.Num < limit_for_application(node.TxQueue); }
 
 void withdraw(CO_NODE& node, uint32_t identifier) {
   CO_TX_QUEUE& queue = node.TxQueue;

@@ -45,7 +45,7 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 // Return, without offering frames to the driver, whether a frame of the identifier is queued, and whether a frame of
 // the application could be.
 [[nodiscard]] bool is_queued(const CO_NODE& node, uint32_t identifier);
-[[nodiscard]] bool has_place_for_application(const CO_NODE& node);
+[[nodiscard]] bool has_room_for_application(const CO_NODE& node);
 
 // Keeps only the queued responses of SDO servers and NMT commands, and counts the other frames as dropped. The kept
 // ones are sent before all frames that are queued later, the boot-up message included. In Initialisation keeps all.

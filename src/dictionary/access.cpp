@@ -16,10 +16,10 @@ Abort refusal(const CO_OBJ& obj, CO_OBJ_TRANSFER transfer) {
   return transfer == CO_OBJ_UPLOAD ? Abort::write_only : Abort::read_only;
 }
 
-// Returns whether the entry of the channel's transfer is still at the same place in the dictionary.
-bool is_in_place(const CO_DICT& dict, const CO_SDO& channel) {
-  const auto place = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
-  return place < dict.Num * sizeof(CO_OBJ) && CO_GET_DEV(channel.Obj->Key) == channel.Key;
+// Returns whether the entry of the channel's transfer is still at the same position in the dictionary.
+bool is_same_position(const CO_DICT& dict, const CO_SDO& channel) {
+  const auto offset = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
+  return offset < dict.Num * sizeof(CO_OBJ) && CO_GET_DEV(channel.Obj->Key) == channel.Key;
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void end_transfer(CO_NODE& node, CO_SDO& channel) {
 
 void close_moved(CO_NODE& node) {
   for (CO_SDO& channel : node.Sdo) {
-    if (channel.Obj != nullptr && !is_in_place(node.Dict, channel)) {
+    if (channel.Obj != nullptr && !is_same_position(node.Dict, channel)) {
       channel.Obj = nullptr;
     }
   }

@@ -94,9 +94,9 @@ extern "C" CO_OBJ* CODictFind(CO_DICT* cod, uint32_t key) {
 namespace co::dict {
 
 CO_OBJ* find(CO_DICT& dict, uint32_t key) {
-  const uint32_t place = first_from(dict.Root, dict.Num, CO_GET_DEV(key));
-  CO_OBJ* const found = &dict.Root[place];
-  return place < dict.Num && CO_GET_DEV(found->Key) == CO_GET_DEV(key) ? found : nullptr;
+  const uint32_t position = first_from(dict.Root, dict.Num, CO_GET_DEV(key));
+  CO_OBJ* const found = &dict.Root[position];
+  return position < dict.Num && CO_GET_DEV(found->Key) == CO_GET_DEV(key) ? found : nullptr;
 }
 
 }  // namespace co::dict

@@ -34,13 +34,13 @@ inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlo
 
 // Node lock (CO_NODE_EXT.Enter and Leave). NodeLock holds it for a scope. Scopes must not nest.
 #if USE_REAL_TIME
-inline void enter(CO_NODE& node) {
+inline void lock_node(CO_NODE& node) {
   if (is_initialised(node) && node.Ext->Enter != nullptr) {
     node.Ext->Enter(node.Ext->User);
     node.IsNodeLocked = 1;
   }
 }
-inline void leave(CO_NODE& node, const CO_NODE_EXT* ext) {
+inline void unlock_node(CO_NODE& node, const CO_NODE_EXT* ext) {
   if (ext != nullptr && ext->Leave != nullptr) {
     node.IsNodeLocked = 0;
     ext->Leave(ext->User);
@@ -49,8 +49,8 @@ inline void leave(CO_NODE& node, const CO_NODE_EXT* ext) {
 
 class NodeLock {
  public:
-  explicit NodeLock(CO_NODE& node) : node_(node), ext_(node.Ext) { enter(node); }
-  ~NodeLock() { leave(node_, ext_); }
+  explicit NodeLock(CO_NODE& node) : node_(node), ext_(node.Ext) { lock_node(node); }
+  ~NodeLock() { unlock_node(node_, ext_); }
   NodeLock(const NodeLock&) = delete;
   NodeLock& operator=(const NodeLock&) = delete;
 
@@ -59,8 +59,8 @@ class NodeLock {
   const CO_NODE_EXT* ext_;
 };
 #else
-inline void enter(CO_NODE&) {}
-inline void leave(CO_NODE&, const CO_NODE_EXT*) {}
+inline void lock_node(CO_NODE&) {}
+inline void unlock_node(CO_NODE&, const CO_NODE_EXT*) {}
 
 class NodeLock {
  public:

@@ -15,7 +15,7 @@ void node::run_pending(CO_NODE& node, unsigned what) {
     if (pending == 0) {
       return;
     }
-    const event::Serving serving(node);
+    const event::Working working(node);
     event::remove(node, pending & ~unsigned{event::messages | event::mode});
     if ((pending & event::configure) != 0 && (pending & event::resets) == 0 && node.Nmt.Next != CO_INVALID) {
       parts::run<&Part::of_configure>(node);
@@ -39,7 +39,7 @@ void event::run_all_deferred(CO_NODE& node) {
 }
 
 void event::end_call(CO_NODE& node, uint8_t before) {
-  node.State &= static_cast<uint8_t>(before | ~serving);
+  node.State &= static_cast<uint8_t>(before | ~working);
   run_deferred(node);
 }
 

@@ -27,7 +27,7 @@ extern "C" int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint1
   if (cod == nullptr || node == nullptr || root == nullptr || max == 0) {
     return -1;
   }
-  if (event::is_serving(*node)) {
+  if (event::is_working(*node)) {
     error::report(*node, CO_ERR_DICT_BUSY);
     return -1;
   }

@@ -138,7 +138,7 @@ void init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext, AddDr
   bool is_entered = false;
   bool initialised = false;
   {
-    const event::Serving serving(*node);
+    const event::Working working(*node);
     node->Nmt.Next = CO_INIT;
     event::defer(*node, event::mode);
     event::enter_requested_mode(*node);

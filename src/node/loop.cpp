@@ -23,7 +23,7 @@ bool waits_to_send(const CO_NODE& node) { return transmit::is_waiting(node) || n
 void resume_sending(CO_NODE& node) {
   transmit::flush(node);
   if ((USE_SDO_BLOCK != 0 || CO_MPDO_N != 0) && node.Transmit.Paused != 0) {
-    const event::Serving serving(node);
+    const event::Working working(node);
     parts::on_free(node);
   }
 }
@@ -59,8 +59,8 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
     frame.Identifier = wire::normalised(frame.Identifier);
   }
 #if CO_ROUTES_SORTED
-  const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
-  const bool is_claimed = place != routes::nowhere && parts::dispatch(node, frame, place);
+  const unsigned slot = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
+  const bool is_claimed = slot != routes::nowhere && parts::dispatch(node, frame, slot);
 #else
   const bool is_claimed = parts::dispatch(node, frame);
 #endif
@@ -102,7 +102,7 @@ extern "C" {
 
 void CONodeProcess(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  const port::NodeLock turn(*node);
+  const port::NodeLock lock(*node);
   if constexpr (USE_REAL_TIME != 0) {
     node::run_deferred_of_mainline(*node);
   }
@@ -122,9 +122,9 @@ void CONodeProcess(CO_NODE* node) {
   if (!node::receive(*node, frame)) {
     return;
   }
-  node->State |= event::serving;
+  node->State |= event::working;
   node::dispatch(*node, frame);
-  node->State &= static_cast<uint8_t>(~event::serving);
+  node->State &= static_cast<uint8_t>(~event::working);
   node::run_deferred_of_mainline(*node);
 }
 
@@ -140,7 +140,7 @@ void COTmrProcess(CO_TMR* tmr) {
   if (waits) {
     node::resume_sending_between_frames(node);
   }
-  if (!tmr::has_due(*tmr) || event::is_serving(node)) {
+  if (!tmr::has_due(*tmr) || event::is_working(node)) {
     return;
   }
   if (!waits && node.State == event::running) {
@@ -151,7 +151,7 @@ void COTmrProcess(CO_TMR* tmr) {
 
 uint32_t CONodeNextDeadline(CO_NODE* node) {
   ASSERT_PTR_FATAL_ERR(node, UINT32_MAX);
-  const port::NodeLock turn(*node);
+  const port::NodeLock lock(*node);
   if (!port::is_initialised(*node)) {
     return UINT32_MAX;
   }

@@ -210,7 +210,7 @@ extern "C" {
 
 void CONodeStart(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  if (node->Nmt.Mode == CO_INIT && node->Nmt.Next == CO_INIT && !event::is_serving(*node)) {
+  if (node->Nmt.Mode == CO_INIT && node->Nmt.Next == CO_INIT && !event::is_working(*node)) {
     nmt::start(*node);
   }
   event::run_deferred(*node);
@@ -237,7 +237,7 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   ASSERT_PTR_FATAL(nmt);
   ASSERT_PTR_FATAL(nmt->Node);
   CO_NODE& node = *nmt->Node;
-  const bool initialising = nmt->Next == CO_INIT && event::is_serving(node);
+  const bool initialising = nmt->Next == CO_INIT && event::is_working(node);
   const bool unconfigured = !wire::is_node_id(node.NodeId);
   const bool stopped = nmt->Mode == CO_INVALID || nmt->Next == CO_INVALID;
   if (stopped || initialising || unconfigured || mode < CO_PREOP || mode >= CO_MODE_NUM) {

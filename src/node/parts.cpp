@@ -84,23 +84,23 @@ uint8_t permission_of(uint16_t owner) { return receivers.row[routes::receiver_of
 namespace {
 
 // Calls the parts in the order of the routes, which each part may change.
-[[gnu::noinline]] bool dispatch_shared(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
+[[gnu::noinline]] bool dispatch_shared(CO_NODE& node, const CO_IF_FRM& frame, unsigned slot) {
   bool claimed = false;
-  bool served = false;
-  const uint32_t id = node.Routes.Id[place];
+  bool processed = false;
+  const uint32_t id = node.Routes.Id[slot];
   do {
-    const uint16_t owner = node.Routes.Owner[place];
-    const bool alone = !routes::is_at(node, place + 1, id);
+    const uint16_t owner = node.Routes.Owner[slot];
+    const bool alone = !routes::is_at(node, slot + 1, id);
     CO_ASSERT(routes::receiver_of(owner) < routes::receivers);
     const Receiver& receiver = receivers.row[routes::receiver_of(owner)];
     if (event::is_allowed(node, receiver.allowed)) {
-      const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? receiver.on_remote : receiver.on_frame;
+      const auto process = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? receiver.on_remote : receiver.on_frame;
       claimed = true;
-      served |= serve(node, frame, routes::number_of(owner));
+      processed |= process(node, frame, routes::number_of(owner));
     }
-    place = alone ? routes::nowhere : routes::next(node, place, id, owner);
-  } while (place != routes::nowhere);
-  if (claimed && !served) {
+    slot = alone ? routes::nowhere : routes::next(node, slot, id, owner);
+  } while (slot != routes::nowhere);
+  if (claimed && !processed) {
     count(node.Count.Malformed);
   }
   return claimed;
@@ -109,19 +109,19 @@ namespace {
 }  // namespace
 
 // Calls the only owner of the identifier without a loop: nearly all identifiers have one owner.
-bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
-  CO_ASSERT(place < node.Routes.Start[CO_ROUTE_CLASS_N]);
-  if (USE_FAST_PATHS == 0 || routes::is_at(node, place + 1, node.Routes.Id[place])) {
-    return dispatch_shared(node, frame, place);
+bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned slot) {
+  CO_ASSERT(slot < node.Routes.Start[CO_ROUTE_CLASS_N]);
+  if (USE_FAST_PATHS == 0 || routes::is_at(node, slot + 1, node.Routes.Id[slot])) {
+    return dispatch_shared(node, frame, slot);
   }
-  const uint16_t owner = node.Routes.Owner[place];
+  const uint16_t owner = node.Routes.Owner[slot];
   CO_ASSERT(routes::receiver_of(owner) < routes::receivers);
   const Receiver& receiver = receivers.row[routes::receiver_of(owner)];
   if (!event::is_allowed(node, receiver.allowed)) {
     return false;
   }
-  const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? receiver.on_remote : receiver.on_frame;
-  if (!serve(node, frame, routes::number_of(owner))) {
+  const auto process = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? receiver.on_remote : receiver.on_frame;
+  if (!process(node, frame, routes::number_of(owner))) {
     count(node.Count.Malformed);
   }
   return true;
@@ -131,20 +131,20 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
   const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
   bool claimed = false;
-  bool served = false;
-  for (unsigned place = 0; (place = routes::find(node, id, place)) != CO_ROUTE_N; ++place) {
+  bool processed = false;
+  for (unsigned slot = 0; (slot = routes::find(node, id, slot)) != CO_ROUTE_N; ++slot) {
     const Receiver* receiver = receivers.row;
-    unsigned number = place;
+    unsigned number = slot;
     for (; number >= receiver->routes; ++receiver) {
       number -= receiver->routes;
     }
     if (event::is_allowed(node, receiver->allowed)) {
-      const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? receiver->on_remote : receiver->on_frame;
+      const auto process = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? receiver->on_remote : receiver->on_frame;
       claimed = true;
-      served |= serve(node, frame, static_cast<uint16_t>(number));
+      processed |= process(node, frame, static_cast<uint16_t>(number));
     }
   }
-  if (claimed && !served) {
+  if (claimed && !processed) {
     count(node.Count.Malformed);
   }
   return claimed;

@@ -99,7 +99,7 @@ template <size_t row = 0>
 
 // Passes a frame to the parts whose routes begin at this position. Returns false if the NMT state permits none of them.
 #if CO_ROUTES_SORTED
-[[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place);
+[[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned slot);
 
 // Returns the CO_..._ALLOWED bit of the part that owns a route.
 [[nodiscard]] uint8_t permission_of(uint16_t owner);

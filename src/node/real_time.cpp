@@ -16,48 +16,48 @@
 namespace co::node {
 namespace {
 
-// Returns whether all routes of the identifier at this position belong to SYNC and PDOs.
-bool is_real_time(const CO_NODE& node, unsigned place) {
+// Returns whether all routes of the identifier at this slot belong to SYNC and PDOs.
+bool is_real_time(const CO_NODE& node, unsigned slot) {
   constexpr unsigned own = CO_SYNC_ALLOWED | CO_PDO_ALLOWED;
-  const uint32_t id = node.Routes.Id[place];
-  while (routes::is_at(node, place, id) && (parts::permission_of(node.Routes.Owner[place]) & own) != 0) {
-    ++place;
+  const uint32_t id = node.Routes.Id[slot];
+  while (routes::is_at(node, slot, id) && (parts::permission_of(node.Routes.Owner[slot]) & own) != 0) {
+    ++slot;
   }
-  return !routes::is_at(node, place, id);
+  return !routes::is_at(node, slot, id);
 }
 
 // Processes a frame in the real-time thread. A frame that the NMT state forbids now is dropped: left to
 // CONodeProcess(), it would be processed after newer frames.
-void serve_at_once(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
-  if (place == routes::nowhere || !parts::dispatch(node, frame, place)) {
+void process(CO_NODE& node, const CO_IF_FRM& frame, unsigned slot) {
+  if (slot == routes::nowhere || !parts::dispatch(node, frame, slot)) {
     count(node.Count.Unclaimed);
   }
 }
 
-// Leaves a frame to CONodeProcess(); a frame for which the ring has no space is lost and reported as overrun.
-void leave(CO_NODE& node, const CO_IF_FRM& frame) {
+// Queues a frame for CONodeProcess(); a frame that the ring cannot hold is lost and reported as overrun.
+void queue_for_mainline(CO_NODE& node, const CO_IF_FRM& frame) {
   if (!CORingPut(node.Ext->Mainline, &frame)) {
     event::defer(node, event::overrun);
   }
 }
 
-// Returns whether a frame is left to CONodeProcess(). place: position of its first route
-bool is_for_mainline(const CO_NODE& node, unsigned place) {
-  return place == routes::nowhere ? node.Ext->Foreign : !is_real_time(node, place);
+// Returns whether a frame is processed by CONodeProcess(). slot: its first route
+bool is_for_mainline(const CO_NODE& node, unsigned slot) {
+  return slot == routes::nowhere ? node.Ext->Foreign : !is_real_time(node, slot);
 }
 
-// Processes a received frame, or leaves it to CONodeProcess().
-void share_out(CO_NODE& node, CO_IF_FRM frame) {
+// Processes a received frame, or queues it for CONodeProcess().
+void process_or_queue(CO_NODE& node, CO_IF_FRM frame) {
   if (!check_length(node, frame)) {
     return;
   }
   if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
-    leave(node, frame);
+    queue_for_mainline(node, frame);
     return;
   }
   frame.Identifier = wire::normalised(frame.Identifier);
-  const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
-  is_for_mainline(node, place) ? leave(node, frame) : serve_at_once(node, frame, place);
+  const unsigned slot = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
+  is_for_mainline(node, slot) ? queue_for_mainline(node, frame) : process(node, frame, slot);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ void share_out(CO_NODE& node, CO_IF_FRM frame) {
 // Runs all deferred work, for CONodeProcess(): also the work that is left to the mainline.
 void run_deferred_of_mainline(CO_NODE& node) {
   if ((node.Pending & event::overrun) != 0) {
-    const event::Serving serving(node);
+    const event::Working working(node);
     event::remove(node, event::overrun);
     report(node, CO_CAN_OVERRUN);
   }
@@ -87,7 +87,7 @@ using namespace co;
 // state ends the loop, and is entered at the end.
 extern "C" void CONodeRealTime(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  const port::NodeLock turn(*node);
+  const port::NodeLock lock(*node);
   if (!port::has_mainline(*node)) {
     return;
   }
@@ -98,12 +98,12 @@ extern "C" void CONodeRealTime(CO_NODE* node) {
   }
   const unsigned ends = node->State == event::running ? unsigned{event::mode} : 0U;  // else the mainline enters it
   {
-    const event::Serving serving(*node);
+    const event::Working working(*node);
     transmit::flush(*node);
     CO_IF_FRM frame = wire::empty_frame();
     while ((node->Pending & ends) == 0 && receive::read(*node, frame) > 0) {
       count(node->Count.Received);
-      node::share_out(*node, frame);
+      node::process_or_queue(*node, frame);
       event::send_deferred(*node);
     }
     tmr::run_real_time(node->Tmr);

@@ -117,7 +117,7 @@ CO_ERR run(CO_NODE& node, const CO_PARA& group, const uint8_t* data) {
   }
   CO_ERR err = CO_ERR_NONE;
   {
-    const event::Serving serving(node);
+    const event::Working working(node);
     err = save(node, group, data);
   }
   event::run_deferred(node);
@@ -157,7 +157,7 @@ CO_ERR CONodeParaLoad(CO_NODE* node, CO_NMT_RESET type) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
   CO_ERR err = CO_ERR_NONE;
   {
-    const event::Serving serving(*node);
+    const event::Working working(*node);
     err = para::load(*node, type, &CO_PARA::Size);
   }
   event::run_deferred(*node);

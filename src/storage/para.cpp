@@ -104,7 +104,7 @@ CO_ERR without_delay(CO_ERR err) { return CO_PARA_BUDGET > 0 && err == CO_ERR_OB
     callback::lose_para(node, group);
     err = CO_ERR_PARA_LOAD;
   }
-  if (found == Found::no_place) {
+  if (found == Found::no_room) {
     err = CO_ERR_PARA_STORE;
   }
   return located.err != CO_ERR_NONE ? located.err : err;

@@ -78,12 +78,12 @@ struct Region {
 class Outside {
  public:
   explicit Outside(const CO_NODE& node)
-      : node_(const_cast<CO_NODE&>(node)), serving_(node_), ext_(node.IsNodeLocked != 0 ? node.Ext : nullptr) {
-    port::leave(node_, ext_);
+      : node_(const_cast<CO_NODE&>(node)), working_(node_), ext_(node.IsNodeLocked != 0 ? node.Ext : nullptr) {
+    port::unlock_node(node_, ext_);
   }
   ~Outside() {
     if (ext_ != nullptr) {
-      port::enter(node_);
+      port::lock_node(node_);
     }
   }
   Outside(const Outside&) = delete;
@@ -91,7 +91,7 @@ class Outside {
 
  private:
   CO_NODE& node_;
-  event::Serving serving_;
+  event::Working working_;
   const CO_NODE_EXT* ext_;
 };
 #else
@@ -182,7 +182,7 @@ Found read_slot(const Region& region, uint32_t start, Header& header, Pass* pass
 // One of the two slots of a record.
 struct Slot {
   Slot(const Region& region, uint32_t begin, Pass* pass)
-      : start(begin), header{}, found(region.fits() ? read_slot(region, begin, header, pass) : Found::no_place) {}
+      : start(begin), header{}, found(region.fits() ? read_slot(region, begin, header, pass) : Found::no_room) {}
 
   uint32_t start;
   Header header;
@@ -231,7 +231,7 @@ bool is_newest_damaged(const Slots& slots) {
 constexpr unsigned groups_in_byte = 4;
 constexpr unsigned slot_bits = 2;
 
-// A place in CO_NODE.Storage.Newest.
+// The two bits of a group in CO_NODE.Storage.Newest.
 struct Remembered {
   explicit Remembered(const Region& region)
       : byte(region.node.Storage.Newest[region.record.group / groups_in_byte]),
@@ -349,7 +349,7 @@ Found load(CO_NODE& node, const Record& record, store::Target& target) {
 CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data, store::Cause cause) {
   const Region region(node, record);
   const Slots slots(region);
-  if (slots.newest->found == Found::no_place) {
+  if (slots.newest->found == Found::no_room) {
     return CO_ERR_PARA_STORE;
   }
   if (cause == store::Cause::change && slots.newest->found == Found::defaults) {

@@ -21,7 +21,7 @@ enum class Found : uint8_t {
   defaults,  // the request to use the default values
   blank,     // nothing has ever been stored, or there is no memory
   lost,      // the record is damaged, belongs to something else, or cannot be read
-  no_place,  // the record does not fit the memory
+  no_room,   // the record does not fit the memory
 };
 
 // Memory of the application that a record is loaded to.

@@ -70,9 +70,11 @@ class Depths:
         self.nevers = {}  # title → numbers of the "never" that begin with it
         self.forbidden = [targets.of_words(words, "") for _, words in targets.nevers]
         for number, (pattern, _) in enumerate(targets.nevers):
-            for each in functions:
-                if fnmatchcase(each.name, pattern):
-                    self.nevers.setdefault(each.title, []).append(number)
+            found = [each.title for each in functions if fnmatchcase(each.name, pattern)]
+            if not found and targets.is_whole:
+                raise SystemExit(f"calls.txt: never | {pattern}: there is no such function")
+            for title in found:
+                self.nevers.setdefault(title, []).append(number)
         self.top = (0,) * (len(targets.limits) + len(targets.nevers))
         self.known = {}  # place, what is above it → bytes, next place
         self.way_here = []

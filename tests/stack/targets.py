@@ -36,7 +36,7 @@ class Targets:
         self.rules = []
         self.rows = []  # (pattern of tables, members)
         self.limits = []  # (pattern of functions, number)
-        self.nevers = []  # (pattern of functions, what nothing below them calls)
+        self.nevers = []  # (pattern of functions, functions that no call below them leads to)
         for line in text.splitlines():
             fields = [field.strip() for field in line.split("|")]
             if not line or line.startswith("#"):

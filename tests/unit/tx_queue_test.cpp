@@ -48,7 +48,7 @@ TEST_CASE("transmit queue: frames of one identifier keep their order [Q4]") {
 
 // Returns the number of elements that frames of the application may use. The others, at most half of the queue, are
 // reserved for a frame of each SDO server and client, an EMCY message and a heartbeat.
-unsigned places_for_application(unsigned length) {
+unsigned limit_for_application(unsigned length) {
   const unsigned clients = USE_CSDO != 0 ? CO_CSDO_N : 0U;
   const unsigned kept = std::min(length / 2, 2U + CO_SSDO_N + clients);
   return length - kept;
@@ -60,8 +60,8 @@ TEST_CASE("transmit queue: the application can fill all slots except those of th
     Fixture node(Setup().tx_queue(static_cast<std::uint16_t>(length)));
     node.can.refuse_all();
     for (unsigned i = 0; i < length + 5; ++i) send(node, "181#01");
-    CHECK(node.counters().Dropped == length + 5 - places_for_application(length));
-    CHECK(released(node).size() == places_for_application(length));
+    CHECK(node.counters().Dropped == length + 5 - limit_for_application(length));
+    CHECK(released(node).size() == limit_for_application(length));
   }
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("transmit queue: without memory of the application it has CO_TX_QUEUE_
   Fixture node;
   node.can.refuse_all();
   for (int i = 0; i < CO_TX_QUEUE_N; ++i) send(node, "181#01");
-  CHECK(released(node).size() == places_for_application(CO_TX_QUEUE_N));
+  CHECK(released(node).size() == limit_for_application(CO_TX_QUEUE_N));
 }
 
 TEST_CASE("transmit queue: if it is full of the node's own frames a further one is dropped and counted") {
@@ -112,7 +112,7 @@ TEST_CASE("transmit queue: random frames are sent in the order of a model") {
       CO_IF_FRM frm = frame("180#0000");
       frm.Identifier += static_cast<std::uint32_t>(random() % 4);
       frm.Data[0] = static_cast<std::uint8_t>(step);
-      const bool fits = waiting.size() < places_for_application(30) || !refuse;
+      const bool fits = waiting.size() < limit_for_application(30) || !refuse;
       if (fits) {
         const auto behind = [](const CO_IF_FRM& a, const CO_IF_FRM& b) { return a.Identifier < b.Identifier; };
         if (!refuse) {

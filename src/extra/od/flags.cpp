@@ -41,9 +41,9 @@ struct Note {
   void clear() const { put(false); }
 };
 
-// Returns the bit of an object with a place in a list of num objects; without byte if place is not in the list.
-Note note_of(uint8_t* bytes, unsigned place, unsigned num) {
-  return {place < num ? &bytes[place / 8U] : nullptr, static_cast<uint8_t>(1U << (place % 8U))};
+// Returns the bit of an object with a position in a list of num objects; without byte if position is not in the list.
+Note note_of(uint8_t* bytes, unsigned position, unsigned num) {
+  return {position < num ? &bytes[position / 8U] : nullptr, static_cast<uint8_t>(1U << (position % 8U))};
 }
 
 // Returns the bit of an object in the mapping of a PDO. number: as in flags_of()
@@ -57,7 +57,7 @@ Note note_in(CO_NODE& node, CO_TPDO& pdo, uint16_t number) {
     return note_in(pdo.Map, number);
   }
   const mpdo::Transferred list = mpdo::transferred(node, number);
-  return note_of(list.bytes, list.place, list.num);
+  return note_of(list.bytes, list.position, list.num);
 }
 
 // Returns the flags of an object. Bit 0: an RPDO was received with it; bit n + 1: TPDO n was transmitted with it.

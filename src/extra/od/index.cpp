@@ -11,21 +11,21 @@ namespace {
 
 static_assert(sizeof(void*) != 4 || sizeof(OD_entry_t) == 12);
 
-uint16_t index_at(const CO_OBJ* table, unsigned place) { return CO_GET_IDX(table[place].Key); }
+uint16_t index_at(const CO_OBJ* table, unsigned position) { return CO_GET_IDX(table[position].Key); }
 
 // Returns whether the entries are sorted by index and sub-index, without duplicates.
 bool is_ascending(const CO_OBJ* table, uint16_t num) {
-  uint16_t place = 1;
-  while (place < num && table[place - 1].Key >> 8 < table[place].Key >> 8) {
-    ++place;
+  uint16_t position = 1;
+  while (position < num && table[position - 1].Key >> 8 < table[position].Key >> 8) {
+    ++position;
   }
-  return place >= num;
+  return position >= num;
 }
 
 uint16_t count_objects(const CO_OBJ* table, uint16_t num) {
   uint16_t objects = num != 0 ? 1 : 0;
-  for (uint16_t place = 1; place < num; ++place) {
-    objects = static_cast<uint16_t>(objects + (index_at(table, place) != index_at(table, place - 1U) ? 1 : 0));
+  for (uint16_t position = 1; position < num; ++position) {
+    objects = static_cast<uint16_t>(objects + (index_at(table, position) != index_at(table, position - 1U) ? 1 : 0));
   }
   return objects;
 }
@@ -61,8 +61,8 @@ OD_entry_t* find(const OD_t& od, uint16_t index) {
 uint16_t keep_extended(const OD_t& od, OD_entry_t* list) {
   uint16_t kept = 0;
   for (const OD_entry_t* entry = od.Filled; entry != nullptr && entry->odObject != nullptr; ++entry) {
-    const uint32_t place = dict::first_from(od.Table, od.TableLen, CO_DEV(entry->index, 0));
-    const bool is_there = place < od.TableLen && index_at(od.Table, place) == entry->index;
+    const uint32_t position = dict::first_from(od.Table, od.TableLen, CO_DEV(entry->index, 0));
+    const bool is_there = position < od.TableLen && index_at(od.Table, position) == entry->index;
     if (entry->extension != nullptr && is_there) {
       list[kept++] = *entry;
     }
@@ -72,9 +72,9 @@ uint16_t keep_extended(const OD_t& od, OD_entry_t* list) {
 
 // Fills the list from the last object to the first, so that an entry that was moved to the front is not overwritten
 // before its extension is copied.
-void fill(OD_t& od, uint16_t objects, uint16_t kept) {
+void fill_list(OD_t& od, uint16_t objects, uint16_t kept) {
   unsigned end = od.TableLen;
-  for (unsigned place = objects; place != 0; --place) {
+  for (unsigned position = objects; position != 0; --position) {
     unsigned first = end - 1;
     while (first != 0 && index_at(od.Table, first - 1) == index_at(od.Table, first)) {
       --first;
@@ -85,8 +85,8 @@ void fill(OD_t& od, uint16_t objects, uint16_t kept) {
       extension = od.list[--kept].extension;
     }
     const unsigned num = end - first;
-    od.list[place - 1] = {index, static_cast<uint8_t>(num < UINT8_MAX ? num : UINT8_MAX),
-                          static_cast<uint8_t>(kind_of(od.Table + first, num) | ODT_TABLE), &od, extension};
+    od.list[position - 1] = {index, static_cast<uint8_t>(num < UINT8_MAX ? num : UINT8_MAX),
+                             static_cast<uint8_t>(kind_of(od.Table + first, num) | ODT_TABLE), &od, extension};
     end = first;
   }
   od.list[objects] = {};
@@ -96,8 +96,8 @@ void fill(OD_t& od, uint16_t objects, uint16_t kept) {
 }  // namespace
 
 CO_OBJ* find_in_table(const OD_t& od, uint32_t key) {
-  const uint32_t place = dict::first_from(od.Table, od.TableLen, key);
-  return place < od.TableLen && CO_GET_DEV(od.Table[place].Key) == key ? &od.Table[place] : nullptr;
+  const uint32_t position = dict::first_from(od.Table, od.TableLen, key);
+  return position < od.TableLen && CO_GET_DEV(od.Table[position].Key) == key ? &od.Table[position] : nullptr;
 }
 
 OD_extension_t* extension_of(const CO_NODE& node, const CO_OBJ& obj) {
@@ -134,7 +134,7 @@ ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, CO_NODE_T* node, CO_OBJ_
   const uint16_t kept = od::keep_extended(*od, list);
   od->list = list;
   od->Filled = list;
-  od::fill(*od, objects, kept);
+  od::fill_list(*od, objects, kept);
   return ODR_OK;
 }
 

@@ -35,7 +35,7 @@ void unlock_objects(CO_NODE& node) {
 
 void release_node_lock(CO_NODE& node) {
   event::run_deferred(node);
-  port::leave(node, node.Ext);
+  port::unlock_node(node, node.Ext);
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ void OD_lock(CO_NODE_T* node) {
   if (!port::is_initialised(*node)) {
     return;
   }
-  od::has_node_lock(*node) ? port::enter(*node) : od::lock_objects(*node);
+  od::has_node_lock(*node) ? port::lock_node(*node) : od::lock_objects(*node);
 }
 
 void OD_unlock(CO_NODE_T* node) {

@@ -206,14 +206,14 @@ CO_ERR read_command(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t length) {
 
 // Returns whether the download can continue. Since it began, a write to 1024h may have started an execution, or
 // removed the records before it.
-bool is_in_place(const CO_OS_COMMAND& os) { return os.Begin != no_download; }
+bool is_downloading(const CO_OS_COMMAND& os) { return os.Begin != no_download; }
 
 CO_ERR write_command(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t length) {
   auto* const os = data_of<CO_OS_COMMAND>(*obj);
   if (os == nullptr || os->Command == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  if (!is_in_place(*os)) {
+  if (!is_downloading(*os)) {
     return CO_ERR_OBJ_STATE;
   }
   const uint32_t n = stream::clip(length, os->CommandOffset, space(*os));
@@ -254,7 +254,7 @@ CO_ERR end_command(CO_OBJ* obj, CO_NODE* node, CO_OBJ_TRANSFER transfer, uint32_
   if (os == nullptr || transfer == CO_OBJ_UPLOAD || abort != 0) {
     return CO_ERR_NONE;
   }
-  if (!is_in_place(*os)) {
+  if (!is_downloading(*os)) {
     return CO_ERR_OBJ_STATE;
   }
   if (os->Command == nullptr || os->CommandSize - os->Used < length_bytes) {

@@ -84,7 +84,7 @@ void start_timer(CO_OS_OUTPUT& output, uint16_t ms) {
 }
 
 // Removes the oldest character; there is one.
-uint8_t take(CO_OS_OUTPUT& output) {
+uint8_t take_oldest(CO_OS_OUTPUT& output) {
   const uint8_t character = output.Start[output.First];
   output.First = static_cast<uint16_t>(output.First + 1U < output.Size ? output.First + 1U : 0U);
   --output.Num;
@@ -103,7 +103,7 @@ void settle(CO_OS_OUTPUT& output, Outlet outlet) {
   const bool is_withdrawn = output.Taken == waiting && (outlet == Outlet::closed || outlet == Outlet::none);
   output.Taken = 0;
   if (!is_withdrawn) {
-    take(output);
+    take_oldest(output);
   }
 }
 
@@ -156,7 +156,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t length) {
   if (output->Num == 0 || output->Taken != 0) {
     return CO_ERR_OBJ_NO_DATA;
   }
-  character = take(*output);
+  character = take_oldest(*output);
   return CO_ERR_NONE;
 }
 

@@ -15,7 +15,7 @@ constexpr uint16_t index = 0x1003;
 
 // Converts a sub-index that the network uses (1: the newest error) to the sub-index of the entry in the ring. sub:
 // 1…history.Num
-uint8_t place_of(const CO_EMCY_HIST& history, uint8_t sub) {
+uint8_t sub_of(const CO_EMCY_HIST& history, uint8_t sub) {
   const unsigned newest = history.Off >= sub ? history.Off : history.Off + history.Max;
   return static_cast<uint8_t>(newest + 1U - sub);
 }
@@ -41,9 +41,9 @@ void add(CO_NODE* node_pointer, uint32_t entry) {
     ++history.Num;
   }
   const uint32_t key = CO_DEV(index, history.Off);
-  CO_OBJ* const place = dict::find(node, key);
+  CO_OBJ* const entry_obj = dict::find(node, key);
   const CO_ERR err =
-      place == nullptr ? CO_ERR_OBJ_NOT_FOUND : integer::Number<4>::write(place, &node, &entry, sizeof entry);
+      entry_obj == nullptr ? CO_ERR_OBJ_NOT_FOUND : integer::Number<4>::write(entry_obj, &node, &entry, sizeof entry);
   error::report(node, err, key);
 }
 
@@ -72,12 +72,12 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     *static_cast<uint8_t*>(buffer) = history.Num;
     return CO_ERR_NONE;
   }
-  CO_OBJ* const place = sub > history.Num ? nullptr : dict::find(*node, CO_DEV(index, place_of(history, sub)));
-  if (place == nullptr) {
+  CO_OBJ* const entry_obj = sub > history.Num ? nullptr : dict::find(*node, CO_DEV(index, sub_of(history, sub)));
+  if (entry_obj == nullptr) {
     COObjTypeUserSDOAbort(obj, node, CO_SDO_ERR_NO_DATA);
     return CO_ERR_TYPE_RD;
   }
-  return integer::Number<4>::read(place, node, buffer, size);
+  return integer::Number<4>::read(entry_obj, node, buffer, size);
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {

@@ -310,7 +310,7 @@ constexpr Row rows[] = {
     {Lss::fastscan, 1, waiting, fastscan},
 };
 
-void serve(CO_NODE& node, const CO_IF_FRM& request) {
+void process_request(CO_NODE& node, const CO_IF_FRM& request) {
   const auto state = node.Lss.Mode == CO_LSS_CONF ? State::configuration : State::waiting;
   for (const Row& row : rows) {
     const unsigned part = request.Data[0] - static_cast<unsigned>(row.first);
@@ -396,7 +396,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
     return false;
   }
   if (node.Transmit.Off == 0 && is_served(node)) {
-    serve(node, frame);
+    process_request(node, frame);
   }
   return true;
 }

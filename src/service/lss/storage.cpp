@@ -37,7 +37,7 @@ CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nod
     *baud = stored.baud;
     *nodeId = static_cast<uint8_t>(stored.node_id);
   }
-  if (found == store::Found::no_place) {
+  if (found == store::Found::no_room) {
     return CO_ERR_PARA_STORE;
   }
   return found == store::Found::lost ? CO_ERR_IF_NVM_READ : CO_ERR_NONE;

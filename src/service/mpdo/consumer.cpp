@@ -38,9 +38,9 @@ CO_OBJ* dispatch(CO_NODE& node, uint32_t producer) {
   for (uint16_t n = 0; n < node.Mpdo.BlockNum; ++n) {
     const CO_MPDO_BLOCK& block = node.Mpdo.Block[n];
     const uint32_t distance = producer - block.Producer;
-    const uint32_t place = distance / wire::mpdo_next_sub;
-    if (distance % wire::mpdo_next_sub == 0 && place < block.Num) {
-      return object_at(node, static_cast<uint16_t>(block.Entry + place));
+    const uint32_t position = distance / wire::mpdo_next_sub;
+    if (distance % wire::mpdo_next_sub == 0 && position < block.Num) {
+      return object_at(node, static_cast<uint16_t>(block.Entry + position));
     }
   }
   return nullptr;

@@ -26,17 +26,17 @@ inline constexpr uint16_t no_producer = 0;  // CO_MPDO.Producer holds numbers of
 [[nodiscard]] CO_OBJ* object_at(CO_NODE& node, uint16_t entry);
 
 // Scanner list -------------------------------------------------------------------------------------------------------
-// place: index of an object in the list (CO_MPDO.Scan)
+// position: index of an object in the list (CO_MPDO.Scan)
 
 // Returns whether objects are pending; clear_marks() removes all marks.
 [[nodiscard]] bool is_waiting(const CO_NODE& node);
 void clear_marks(CO_NODE& node);
 
 // Finds the next pending object in the order of the list, beginning after the object that was sent last.
-[[nodiscard]] bool next(CO_NODE& node, uint16_t& place);
+[[nodiscard]] bool next(CO_NODE& node, uint16_t& position);
 
 // Clears the mark of an object that was sent or could not be read, and sets the round-robin index to the next object.
-// entry: the object at place before callbacks were called
-void finish_object(CO_NODE& node, uint16_t place, uint16_t entry, bool sent);
+// entry: the object at position before callbacks were called
+void finish_object(CO_NODE& node, uint16_t position, uint16_t entry, bool sent);
 
 }  // namespace co::mpdo

@@ -45,17 +45,17 @@ CO_ERR read(CO_TPDO& pdo, uint16_t entry, CO_IF_FRM& frame) {
 }
 
 // Sends an object of the scanner list. It stays pending if the transmit queue is full.
-CO_ERR send_object(CO_TPDO& pdo, uint16_t place) {
+CO_ERR send_object(CO_TPDO& pdo, uint16_t position) {
   CO_NODE& node = *pdo.Node;
-  CO_ASSERT(place < node.Mpdo.ScanNum);
-  const uint16_t entry = node.Mpdo.Scan[place];
+  CO_ASSERT(position < node.Mpdo.ScanNum);
+  const uint16_t entry = node.Mpdo.Scan[position];
   CO_IF_FRM frame;
   CO_ERR err = read(pdo, entry, frame);
   if (err == CO_ERR_NONE) {
     err = send(pdo, frame);
   }
   if (err != CO_ERR_IF_CAN_SEND) {
-    finish_object(node, place, entry, err == CO_ERR_NONE);
+    finish_object(node, position, entry, err == CO_ERR_NONE);
   }
   return err;
 }
@@ -79,15 +79,15 @@ CO_ERR send_pending(CO_PDO& pdo) {
   CO_NODE& node = *pdo.Node;
   const bool all = pdo.Own.Time.Inhibit == 0;
   CO_ERR result = node.Mpdo.ScanNum != 0 ? CO_ERR_NONE : CO_ERR_TPDO_OBJ_TRIGGER;
-  uint16_t place = 0;
+  uint16_t position = 0;
   bool goes_on = true;
   CO_ASSERT(is_sam(pdo.Map) && producer(node) == &pdo);
-  for (uint16_t left = node.Mpdo.ScanNum; left != 0 && goes_on && next(node, place); --left) {
+  for (uint16_t left = node.Mpdo.ScanNum; left != 0 && goes_on && next(node, position); --left) {
     transmit::flush(node);
     if (transmit::is_waiting(node)) {
       break;
     }
-    const CO_ERR err = send_object(pdo, place);
+    const CO_ERR err = send_object(pdo, position);
     result = err != CO_ERR_NONE ? err : result;
     goes_on = all || err != CO_ERR_NONE;
   }

@@ -9,12 +9,12 @@
 namespace co::mpdo {
 namespace {
 
-bool get(const uint8_t* bits, uint16_t place) { return (bits[place / 8U] & (1U << (place % 8U))) != 0; }
-void put(uint8_t* bits, uint16_t place) {
-  bits[place / 8U] = static_cast<uint8_t>(bits[place / 8U] | 1U << (place % 8U));
+bool has_bit(const uint8_t* bits, uint16_t position) { return (bits[position / 8U] & (1U << (position % 8U))) != 0; }
+void set_bit(uint8_t* bits, uint16_t position) {
+  bits[position / 8U] = static_cast<uint8_t>(bits[position / 8U] | 1U << (position % 8U));
 }
-void clear(uint8_t* bits, uint16_t place) {
-  bits[place / 8U] = static_cast<uint8_t>(bits[place / 8U] & ~(1U << (place % 8U)));
+void clear_bit(uint8_t* bits, uint16_t position) {
+  bits[position / 8U] = static_cast<uint8_t>(bits[position / 8U] & ~(1U << (position % 8U)));
 }
 
 }  // namespace
@@ -23,9 +23,9 @@ bool mark(CO_NODE& node, uint16_t entry) {
   CO_MPDO& mpdo = node.Mpdo;
   CO_ASSERT(mpdo.ScanNum <= CO_MPDO_N);
   bool found = false;
-  for (uint16_t place = 0; place < mpdo.ScanNum; ++place) {
-    if (mpdo.Scan[place] == entry) {
-      put(mpdo.Waiting, place);
+  for (uint16_t position = 0; position < mpdo.ScanNum; ++position) {
+    if (mpdo.Scan[position] == entry) {
+      set_bit(mpdo.Waiting, position);
       found = true;
     }
   }
@@ -35,8 +35,8 @@ bool mark(CO_NODE& node, uint16_t entry) {
 void mark_all(CO_PDO& pdo) {
   CO_MPDO& mpdo = pdo.Node->Mpdo;
   CO_ASSERT(mpdo.ScanNum <= CO_MPDO_N);
-  for (uint16_t place = 0; is_sam(pdo.Map) && place < mpdo.ScanNum; ++place) {
-    put(mpdo.Waiting, place);
+  for (uint16_t position = 0; is_sam(pdo.Map) && position < mpdo.ScanNum; ++position) {
+    set_bit(mpdo.Waiting, position);
   }
 }
 
@@ -50,12 +50,12 @@ bool is_waiting(const CO_NODE& node) {
   return any != 0;
 }
 
-bool next(CO_NODE& node, uint16_t& place) {
+bool next(CO_NODE& node, uint16_t& position) {
   const CO_MPDO& mpdo = node.Mpdo;
-  place = mpdo.NextObject;
-  for (uint16_t n = 0; n < mpdo.ScanNum; ++n, ++place) {
-    place = place < mpdo.ScanNum ? place : 0;
-    if (get(mpdo.Waiting, place)) {
+  position = mpdo.NextObject;
+  for (uint16_t n = 0; n < mpdo.ScanNum; ++n, ++position) {
+    position = position < mpdo.ScanNum ? position : 0;
+    if (has_bit(mpdo.Waiting, position)) {
       return true;
     }
   }
@@ -63,25 +63,25 @@ bool next(CO_NODE& node, uint16_t& place) {
 }
 
 // Checks the list again, because a callback may have changed it.
-void finish_object(CO_NODE& node, uint16_t place, uint16_t entry, bool sent) {
+void finish_object(CO_NODE& node, uint16_t position, uint16_t entry, bool sent) {
   CO_MPDO& mpdo = node.Mpdo;
-  if (place >= mpdo.ScanNum || mpdo.Scan[place] != entry) {
+  if (position >= mpdo.ScanNum || mpdo.Scan[position] != entry) {
     return;
   }
-  clear(mpdo.Waiting, place);
-  mpdo.NextObject = static_cast<uint16_t>(place + 1);
+  clear_bit(mpdo.Waiting, position);
+  mpdo.NextObject = static_cast<uint16_t>(position + 1);
   if (sent) {
-    put(mpdo.Transferred, place);
+    set_bit(mpdo.Transferred, position);
   }
 }
 
 bool was_sent(CO_NODE& node, uint16_t entry) {
   CO_MPDO& mpdo = node.Mpdo;
   bool was = false;
-  for (uint16_t place = 0; place < mpdo.ScanNum; ++place) {
-    if (mpdo.Scan[place] == entry) {
-      was |= get(mpdo.Transferred, place);
-      clear(mpdo.Transferred, place);
+  for (uint16_t position = 0; position < mpdo.ScanNum; ++position) {
+    if (mpdo.Scan[position] == entry) {
+      was |= has_bit(mpdo.Transferred, position);
+      clear_bit(mpdo.Transferred, position);
     }
   }
   return was;
@@ -89,11 +89,11 @@ bool was_sent(CO_NODE& node, uint16_t entry) {
 
 Transferred transferred(CO_NODE& node, uint16_t entry) {
   CO_MPDO& mpdo = node.Mpdo;
-  unsigned place = 0;
-  while (place < mpdo.ScanNum && mpdo.Scan[place] != entry) {
-    ++place;
+  unsigned position = 0;
+  while (position < mpdo.ScanNum && mpdo.Scan[position] != entry) {
+    ++position;
   }
-  return {mpdo.Transferred, place, mpdo.ScanNum};
+  return {mpdo.Transferred, position, mpdo.ScanNum};
 }
 
 }  // namespace co::mpdo

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint8_t all_nodes = 0;
 
-void obey(CO_NMT& nmt, CO_NMT_COMMAND command) {
+void execute(CO_NMT& nmt, CO_NMT_COMMAND command) {
   switch (command) {
     case CO_NMT_COMMAND_START: CONmtSetMode(&nmt, CO_OPERATIONAL); break;
     case CO_NMT_COMMAND_STOP: CONmtSetMode(&nmt, CO_STOP); break;
@@ -32,7 +32,7 @@ CO_ERR command(CO_NODE& node, CO_NMT_COMMAND command, uint8_t node_id) {
     return CO_ERR_IF_CAN_SEND;
   }
   if (own || node_id == all_nodes) {
-    obey(node.Nmt, command);
+    execute(node.Nmt, command);
   }
   return CO_ERR_NONE;
 }

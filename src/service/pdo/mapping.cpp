@@ -75,23 +75,23 @@ bool is_plain(const CO_NODE& node, const CO_OBJ& obj, Direction direction, unsig
 // written in one access each.
 void join(const CO_OBJ* root, CO_PDO_MAP& map, unsigned num) {
   unsigned position = 0;   // in the frame
-  unsigned first = 0;      // place of the first number of the current run of adjacent numbers
+  unsigned first = 0;      // slot of the first number of the current run of adjacent numbers
   unsigned begin = 0;      // its position in the frame
   uintptr_t distance = 0;  // its address minus its position; never 0
-  for (unsigned place = 0; place < num; ++place) {
-    const uintptr_t address = address_of(root[map.Entry[place]]);
+  for (unsigned slot = 0; slot < num; ++slot) {
+    const uintptr_t address = address_of(root[map.Entry[slot]]);
     if (address - position != distance) {
-      first = place;
+      first = slot;
       begin = position;
       distance = address - position;
     }
-    const unsigned bytes = unsigned{map.Step[place]} / one_byte;
+    const unsigned bytes = unsigned{map.Step[slot]} / one_byte;
     if ((position & (bytes - 1U)) != 0) {
-      map.Step[place] |= shifted;
+      map.Step[slot] |= shifted;
     }
     position += bytes;
     if ((begin | distance | position) % sizeof(Word) == 0) {
-      __builtin_memset(map.Step + first, 0, place - first + 1);
+      __builtin_memset(map.Step + first, 0, slot - first + 1);
       map.Step[first] = static_cast<uint8_t>((position - begin) * one_byte);
     }
   }
@@ -99,9 +99,9 @@ void join(const CO_OBJ* root, CO_PDO_MAP& map, unsigned num) {
 
 // Adds an object to a mapping, and increases Span so that it includes the object's distance from the first one. obj:
 // null for bits that are skipped
-void add(const CO_NODE& node, CO_PDO_MAP& map, unsigned place, const CO_OBJ* obj) {
-  map.Entry[place] = obj == nullptr ? no_entry : number_of(node, *obj);
-  const auto behind = static_cast<uint16_t>(map.Entry[place] - map.Entry[0]);
+void add(const CO_NODE& node, CO_PDO_MAP& map, unsigned slot, const CO_OBJ* obj) {
+  map.Entry[slot] = obj == nullptr ? no_entry : number_of(node, *obj);
+  const auto behind = static_cast<uint16_t>(map.Entry[slot] - map.Entry[0]);
   while (behind >> map.Span != 0) {
     ++map.Span;
   }
@@ -236,10 +236,10 @@ CO_ERR copy_or_report(CO_NODE& node, CO_IF_FRM& frame, const Field& field, Direc
 CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
   CO_ERR result = CO_ERR_NONE;
   unsigned position = 0;
-  for (unsigned place = 0; position != map.Length; ++place) {
-    CO_ASSERT(place < CO_PDO_MAP_N && position < map.Length);
-    const unsigned entry = map.Entry[place];
-    const unsigned length = map.Step[place] % by_type;
+  for (unsigned slot = 0; position != map.Length; ++slot) {
+    CO_ASSERT(slot < CO_PDO_MAP_N && position < map.Length);
+    const unsigned entry = map.Entry[slot];
+    const unsigned length = map.Step[slot] % by_type;
     CO_ASSERT(entry == no_entry || entry < node.Dict.Num);
     if (entry != no_entry) {
       const CO_ERR err = copy_or_report(node, frame, {node.Dict.Root[entry], position, length}, direction);
@@ -282,9 +282,9 @@ Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, M
   }
   map.Span = 0;
   __builtin_memset(map.Entry, UINT8_MAX, sizeof map.Entry);
-  for (unsigned place = 0; place < num; ++place) {
-    const uint32_t mapping = read_number(node, CO_DEV(index, place + 1), sizeof mapping, 0);
-    const auto sub = static_cast<uint8_t>(place + 1);
+  for (unsigned slot = 0; slot < num; ++slot) {
+    const uint32_t mapping = read_number(node, CO_DEV(index, slot + 1), sizeof mapping, 0);
+    const auto sub = static_cast<uint8_t>(slot + 1);
     if (mapping == 0) {
       return {CO_ERR_OBJ_MAP_LEN, sub};
     }
@@ -294,8 +294,8 @@ Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, M
     const CO_OBJ* const obj = is_static_type(mapping) ? nullptr : dict::find(node, mapping);
     const unsigned length = mapping & 0xFFU;
     plain = plain && obj != nullptr && is_plain(node, *obj, direction, length / 8);
-    add(node, map, place, obj);
-    map.Step[place] = static_cast<uint8_t>(length / unit);
+    add(node, map, slot, obj);
+    map.Step[slot] = static_cast<uint8_t>(length / unit);
     bits += length;
     fitting = bits <= all_bits ? sub : fitting;
   }
@@ -315,8 +315,8 @@ Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, M
 [[maybe_unused]] static bool is_consistent(const CO_PDO_MAP& map) {
   const unsigned total = is_copied(map) ? length_of(map) : map.Length;
   unsigned sum = 0;
-  for (unsigned place = 0; place < CO_PDO_MAP_N && sum < total; ++place) {
-    const unsigned step = map.Step[place] % by_type;
+  for (unsigned slot = 0; slot < CO_PDO_MAP_N && sum < total; ++slot) {
+    const unsigned step = map.Step[slot] % by_type;
     const unsigned copied = ((step & shifted) != 0 ? step - shifted : step) / one_byte;
     sum += is_copied(map) ? copied : step;
   }
@@ -330,11 +330,11 @@ CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Dire
 }
 
 unsigned find(const CO_PDO_MAP& map, uint16_t entry) {
-  unsigned place = exists(map) ? 0 : CO_PDO_MAP_N;
-  while (place < CO_PDO_MAP_N && map.Entry[place] != entry) {
-    ++place;
+  unsigned slot = exists(map) ? 0 : CO_PDO_MAP_N;
+  while (slot < CO_PDO_MAP_N && map.Entry[slot] != entry) {
+    ++slot;
   }
-  return place;
+  return slot;
 }
 
 bool take_transferred(CO_PDO_MAP& map) {
@@ -344,12 +344,12 @@ bool take_transferred(CO_PDO_MAP& map) {
 }
 
 bool take_transferred(CO_PDO_MAP& map, uint16_t entry) {
-  const unsigned place = find(map, entry);
-  if (place == CO_PDO_MAP_N) {
+  const unsigned slot = find(map, entry);
+  if (slot == CO_PDO_MAP_N) {
     return false;
   }
-  const auto bit = static_cast<uint8_t>(1U << (place % 8U));
-  uint8_t& bits = map.Transferred[place / 8U];
+  const auto bit = static_cast<uint8_t>(1U << (slot % 8U));
+  uint8_t& bits = map.Transferred[slot / 8U];
   const bool was = (bits & bit) != 0;
   bits = static_cast<uint8_t>(bits & ~bit);
   return was;

@@ -79,7 +79,7 @@ inline void copy_data(uint8_t* to, const uint8_t* from) {
   return static_cast<uint16_t>(&obj - node.Dict.Root);
 }
 
-// Returns the place of an entry in the mapping, or CO_PDO_MAP_N.
+// Returns the slot of an entry in the mapping, or CO_PDO_MAP_N.
 [[nodiscard]] unsigned find(const CO_PDO_MAP& map, uint16_t entry);
 
 // Returns whether the PDO maps an entry. Span is a cheap pre-filter: it rejects most PDOs without reading their

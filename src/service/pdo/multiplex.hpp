@@ -11,10 +11,11 @@ namespace co::mpdo {
 inline constexpr uint8_t sam = 0xFE;  // source address mode
 inline constexpr uint8_t dam = 0xFF;  // destination address mode
 
-// Bits of CO_MPDO.Transferred, and the index of an object in them. place = num: the scanner list does not contain it.
+// Bits of CO_MPDO.Transferred, and the index of an object in them. position = num: the scanner list does not contain
+// it.
 struct Transferred {
   uint8_t* bytes;
-  unsigned place;
+  unsigned position;
   unsigned num;
 };
 

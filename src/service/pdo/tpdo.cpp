@@ -37,7 +37,7 @@ CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
   return CO_ERR_NONE;
 }
 
-// Action of serve().
+// Action of sample_or_send().
 enum class Use : uint8_t {
   sample,       // reads the objects and stores them as the answer to remote requests, until the next SYNC
   send,         // reads the objects and sends them
@@ -45,7 +45,7 @@ enum class Use : uint8_t {
 };
 
 // Reads the mapped objects, stores the sample and sends the frame, as use requires.
-CO_ERR serve(CO_TPDO& pdo, Use use) {
+CO_ERR sample_or_send(CO_TPDO& pdo, Use use) {
   CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, length_of(pdo.Map));
   if (use == Use::send_sampled) {
     copy_data(frame.Data, pdo.Own.Data);
@@ -198,7 +198,7 @@ void process_sync(CO_TPDO& pdo, uint8_t counter) {
   if (!is_due && !keeps_sample(pdo)) {
     return;
   }
-  const CO_ERR err = serve(pdo, is_due ? Use::send : Use::sample);
+  const CO_ERR err = sample_or_send(pdo, is_due ? Use::send : Use::sample);
   clear(pdo.Map, marked);
   if (is_due && err != CO_ERR_NONE && pdo.Type == type_acyclic) {
     set(pdo.Map, pending);
@@ -259,7 +259,7 @@ void withdraw_synchronous(CO_NODE& node) {
 
 CO_ERR send_event(CO_TPDO& pdo, Cause cause) {
   set(pdo.Map, inhibited);
-  const CO_ERR err = mpdo::is_sam(pdo.Map) ? mpdo::send_pending(pdo) : serve(pdo, Use::send);
+  const CO_ERR err = mpdo::is_sam(pdo.Map) ? mpdo::send_pending(pdo) : sample_or_send(pdo, Use::send);
   clear(pdo.Map, inhibited | pending | marked);
   if (mpdo::is_pending(pdo)) {
     set(pdo.Map, pending);
@@ -328,7 +328,7 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
       (void)send_event(pdo, Cause::event);
     }
   } else if (pdo.Type == type_rtr || has(pdo.Map, sampled)) {
-    (void)serve(pdo, pdo.Type == type_rtr ? Use::send : Use::send_sampled);
+    (void)sample_or_send(pdo, pdo.Type == type_rtr ? Use::send : Use::send_sampled);
     clear(pdo.Map, marked);
   }
   return true;
@@ -361,7 +361,7 @@ CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
 // Changes by Read functions and callbacks of the PDOs are sent in a second round; changes in that round wait for the
 // next event.
 CO_ERR send_marked(CO_NODE& node) {
-  CO_ASSERT(node.OdLocked == 0 && event::is_serving(node));
+  CO_ASSERT(node.OdLocked == 0 && event::is_working(node));
   const CO_ERR err = trigger_marked(node);
   if (!bits::is_empty(node.PdoSets.Marked)) {
     (void)trigger_marked(node);
@@ -394,7 +394,7 @@ event::Outlet find_outlet(CO_NODE& node, const CO_OBJ& obj) {
   if (outlet != Outlet::open || !is_operational(node)) {
     return outlet == Outlet::open ? Outlet::closed : outlet;
   }
-  return transmit::has_place_for_application(node) ? Outlet::open : Outlet::full;
+  return transmit::has_room_for_application(node) ? Outlet::open : Outlet::full;
 }
 
 bool was_sent(CO_NODE& node, uint16_t number) {

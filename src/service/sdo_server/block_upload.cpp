@@ -64,7 +64,7 @@ bool provide(CO_SDO& channel, uint32_t position, Abort& abort) {
 }
 
 // Fills a segment from the left bytes in the buffer.
-void fill(CO_IF_FRM& frame, const uint8_t* from, uint32_t left) {
+void fill_segment(CO_IF_FRM& frame, const uint8_t* from, uint32_t left) {
   if (left >= wire::segment_bytes) {
     wire::copy_segment(frame.Data + 1, from);
   } else {
@@ -82,7 +82,7 @@ Abort send_segments(CO_SDO& channel) {
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);
   while (channel.Seq != channel.BlkSize && provide(channel, position, abort)) {
     const uint32_t left = channel.Read - position;
-    fill(frame, buffer_of(channel) + channel.Fill - left, left);
+    fill_segment(frame, buffer_of(channel) + channel.Fill - left, left);
     position += smaller(wire::segment_bytes, left);
     const bool last = position == channel.Size;
     frame.Data[0] = wire::block_segment(static_cast<uint8_t>(channel.Seq + 1), last);

@@ -48,18 +48,18 @@ inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
   if (bytes == 0 || (obj.Key & (right | wrong)) != right || has_callbacks(node)) {
     return false;
   }
-  void* const place = data_of<void>(obj);
+  void* const address = data_of<void>(obj);
   CO_IF_FRM answer;
   answer.Identifier = channel.TxId;
   answer.DLC = wire::sdo_dlc;
   if (is_upload) {
     wire::put_reply(answer, wire::expedited_upload_response(bytes), request);
-    wire::put_high(answer, integer::load_aligned(place, bytes));
+    wire::put_high(answer, integer::load_aligned(address, bytes));
   } else {
     if (wire::expedited_length(request.Data[0]) != bytes) {
       return false;
     }
-    integer::store_aligned(place, wire::get_high(request), bytes);
+    integer::store_aligned(address, wire::get_high(request), bytes);
     event::write_object(node, obj);
     if (!event::is_allowed(node, CO_SDO_ALLOWED)) {  // a type of the application has changed the NMT state
       return true;

@@ -122,15 +122,15 @@ bool add_mapped(CO_NODE& node, CO_SRDO& srdo, uint32_t mapping) {
   if (check_mapping(node, mapping, rights_of(srdo.Direction)) != CO_ERR_NONE) {
     return false;
   }
-  const uint8_t place = srdo.Num++;
+  const uint8_t slot = srdo.Num++;
   const CO_OBJ* const obj = is_placeholder(mapping) ? nullptr : dict::find(node, mapping);
-  srdo.Entry[place] = obj == nullptr ? no_entry : static_cast<uint16_t>(obj - node.Dict.Root);
-  srdo.Bytes[place] = static_cast<uint8_t>((mapping & 0xFFU) / 8);
-  if (place % 2 == 0) {
-    srdo.Length = static_cast<uint8_t>(srdo.Length + srdo.Bytes[place]);
+  srdo.Entry[slot] = obj == nullptr ? no_entry : static_cast<uint16_t>(obj - node.Dict.Root);
+  srdo.Bytes[slot] = static_cast<uint8_t>((mapping & 0xFFU) / 8);
+  if (slot % 2 == 0) {
+    srdo.Length = static_cast<uint8_t>(srdo.Length + srdo.Bytes[slot]);
     return srdo.Length <= all_bytes;
   }
-  return srdo.Bytes[place] == srdo.Bytes[place - 1];
+  return srdo.Bytes[slot] == srdo.Bytes[slot - 1];
 }
 
 // Resolves the mapping. Returns the key of the object with the fault; 0: none.
@@ -176,20 +176,20 @@ CO_ERR access(CO_NODE& node, CO_OBJ& obj, uint8_t direction, uint8_t* data, uint
 CO_ERR access_all(CO_NODE& node, const CO_SRDO& srdo, uint8_t* const (&data)[2]) {
   const dict::Lock lock(node);
   unsigned position[2] = {0, 0};
-  for (unsigned place = 0; place < srdo.Num; ++place) {
+  for (unsigned slot = 0; slot < srdo.Num; ++slot) {
     if ((srdo.Flags & served) == 0) {
       return CO_ERR_OBJ_STATE;
     }
-    const unsigned frame = place % 2;
+    const unsigned frame = slot % 2;
     uint8_t* const bytes = data[frame] + position[frame];
-    position[frame] += srdo.Bytes[place];
+    position[frame] += srdo.Bytes[slot];
     CO_ASSERT(position[frame] <= all_bytes);
-    if (srdo.Entry[place] == no_entry) {
-      __builtin_memset(bytes, frame == 0 ? 0 : UINT8_MAX, srdo.Bytes[place]);
+    if (srdo.Entry[slot] == no_entry) {
+      __builtin_memset(bytes, frame == 0 ? 0 : UINT8_MAX, srdo.Bytes[slot]);
       continue;
     }
-    CO_ASSERT(srdo.Entry[place] < node.Dict.Num);
-    const CO_ERR err = access(node, node.Dict.Root[srdo.Entry[place]], srdo.Direction, bytes, srdo.Bytes[place]);
+    CO_ASSERT(srdo.Entry[slot] < node.Dict.Num);
+    const CO_ERR err = access(node, node.Dict.Root[srdo.Entry[slot]], srdo.Direction, bytes, srdo.Bytes[slot]);
     if (err != CO_ERR_NONE) {
       return err;
     }
