@@ -7,7 +7,7 @@
 
 #if USE_ACCESS_HOOK
 
-namespace co::gate {
+namespace co::access_hook {
 
 // Calls a function of CO_NODE_EXT.Callbacks. Returns 0 if the function permits the access or does not exist.
 template <class Result, class Access>
@@ -17,6 +17,6 @@ template <class Result, class Access>
   return function != nullptr ? function(&node, node.Ext->User, &access) : Result{};
 }
 
-}  // namespace co::gate
+}  // namespace co::access_hook
 
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The application's access to the drivers of a node (co_if.h).
-#include "base/count.hpp"
-#include "base/receive.hpp"
+#include "base/error.hpp"
 #include "base/transmit.hpp"
 #include "hal/port.hpp"
 #include "wire/cob_id.hpp"

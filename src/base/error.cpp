@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
 
-#include "base/count.hpp"
-
 namespace co {
 
 #if !USE_FAST_PATHS

@@ -3,7 +3,6 @@
 
 #include <stddef.h>
 
-#include "base/count.hpp"
 #include "base/error.hpp"
 #include "base/events.hpp"
 #include "co_assert.h"
@@ -297,6 +296,26 @@ void run_in_turns(CO_TMR& t, void (*before)(CO_NODE& node)) {
 // Returns whether COTmrProcess() has actions to run.
 bool has_work(CO_TMR& t) { return has_turns(t) ? first_due(t, share_of_mainline(t)) != t.Armed : has_due(t); }
 
+}  // namespace
+
+bool run_locked(CO_TMR& timers, void (*before)(CO_NODE& node)) {
+  const bool is_locked = has_turns(timers);
+  if (is_locked) {
+    run_in_turns(timers, before);
+  }
+  return is_locked;
+}
+
+void run_real_time(CO_TMR& timers) {
+  Span span = {};
+  for (bool more = find_span(timers, Share::real_time, span); more;) {
+    more = run_one(timers, Share::real_time, span);
+    event::send_deferred(*timers.Node);
+  }
+}
+
+namespace {
+
 #else
 
 bool has_work(const CO_TMR& t) { return has_due(t); }
@@ -428,24 +447,6 @@ void run_due(CO_TMR& timers) {
     run(*timers.Node, remove_first(timers), 0);
   } while (has_due(timers) && timers.First->At - first <= span);
 }
-
-#if USE_REAL_TIME
-bool run_locked(CO_TMR& timers, void (*before)(CO_NODE& node)) {
-  const bool is_locked = has_turns(timers);
-  if (is_locked) {
-    run_in_turns(timers, before);
-  }
-  return is_locked;
-}
-
-void run_real_time(CO_TMR& timers) {
-  Span span = {};
-  for (bool more = find_span(timers, Share::real_time, span); more;) {
-    more = run_one(timers, Share::real_time, span);
-    event::send_deferred(*timers.Node);
-  }
-}
-#endif
 
 }  // namespace co::tmr
 

@@ -36,25 +36,22 @@ void stop(CO_NODE& node, CO_TMR_MEM& timer);
 // the next call.
 void run_due(CO_TMR& timers);
 
-// Calls before(), then runs the actions of all timers that have elapsed; where there is a real-time thread, only the
-// actions of the mainline. before() and the search for timers hold the node lock together, and each action holds it
-// anew. Returns false, without effect, if the node has neither a node lock nor a real-time thread.
-#if USE_REAL_TIME
-[[nodiscard]] bool run_locked(CO_TMR& timers, void (*before)(CO_NODE& node));
-#else
-[[nodiscard]] inline bool run_locked(CO_TMR&, void (*)(CO_NODE& node)) { return false; }
-#endif
-
 // Values of CO_TMR_MEM.Owner. Timers of the pool have ids, the others are members of their owner's structure.
 enum class Owner : uint8_t { module, pool, real_time };
 
+#if USE_REAL_TIME
+// Calls before(), then runs the actions of all timers that have elapsed; where there is a real-time thread, only the
+// actions of the mainline. before() and the search for timers hold the node lock together, and each action holds it
+// anew. Returns false, without effect, if the node has neither a node lock nor a real-time thread.
+[[nodiscard]] bool run_locked(CO_TMR& timers, void (*before)(CO_NODE& node));
+
 // Marks a timer of SYNC or of a PDO: where there is a real-time thread, run_real_time() runs its action. To be called
 // once for a timer that is part of its owner.
-#if USE_REAL_TIME
 inline void assign_to_real_time(CO_TMR_MEM& timer) { timer.Owner = static_cast<uint8_t>(Owner::real_time); }
 // Runs the actions of all elapsed timers that are marked.
 void run_real_time(CO_TMR& timers);
 #else
+[[nodiscard]] inline bool run_locked(CO_TMR&, void (*)(CO_NODE& node)) { return false; }
 inline void assign_to_real_time(CO_TMR_MEM&) {}
 #endif
 

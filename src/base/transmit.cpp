@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/transmit.hpp"
 
-#include "base/count.hpp"
 #include "base/error.hpp"
 #include "co_assert.h"
 #include "hal/port.hpp"

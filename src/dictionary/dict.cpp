@@ -5,7 +5,7 @@
 #include "co_assert.h"
 #include "co_core.h"
 #include "dictionary/obj.hpp"
-#include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "wire/bytes.hpp"
 #include "wire/cob_id.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hal/classic.hpp"
+#include "hal/port.hpp"
 
 #include "co_assert.h"
 

@@ -34,6 +34,7 @@ inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlo
 
 // Node lock (CO_NODE_EXT.Enter and Leave). NodeLock holds it for a scope. Scopes must not nest.
 #if USE_REAL_TIME
+[[nodiscard]] inline bool has_node_lock(const CO_NODE& node) { return node.Ext->Enter != nullptr; }
 inline void lock_node(CO_NODE& node) {
   if (is_initialised(node) && node.Ext->Enter != nullptr) {
     node.Ext->Enter(node.Ext->User);
@@ -59,6 +60,7 @@ class NodeLock {
   const CO_NODE_EXT* ext_;
 };
 #else
+[[nodiscard]] inline bool has_node_lock(const CO_NODE&) { return false; }
 inline void lock_node(CO_NODE&) {}
 inline void unlock_node(CO_NODE&, const CO_NODE_EXT*) {}
 
@@ -125,3 +127,13 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
 }
 
 }  // namespace co::port
+
+// Adapters for classic drivers (CO_IF_DRV, as in CANopen-Stack). Only programs that call CONodeInit() or CONodeInitEx()
+// link them.
+
+namespace co::classic {
+
+// Sets adapters to the classic drivers, except for those kinds of drivers that the node already has.
+void add_drivers(CO_IF& cif, CO_IF_DRV& drivers);
+
+}  // namespace co::classic

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loop of the application: received frames, frames that wait for the controller, timers.
 #include "base/callbacks.hpp"
-#include "base/count.hpp"
-#include "base/receive.hpp"
+#include "base/error.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"

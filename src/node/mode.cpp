@@ -49,7 +49,7 @@ constexpr Command commands[] = {
 bool is_permitted([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_IF_FRM& frame) {
 #if USE_ACCESS_HOOK
   const CO_ACCESS_NMT access = {frame.Data[0], frame.Data[1]};
-  return gate::ask(node, &CO_CALLBACKS::AccessNmt, access) == 0;
+  return access_hook::ask(node, &CO_CALLBACKS::AccessNmt, access) == 0;
 #else
   return true;
 #endif

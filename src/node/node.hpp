@@ -2,7 +2,7 @@
 // Functions that the files of this folder share.
 #pragma once
 
-#include "base/count.hpp"
+#include "base/error.hpp"
 #include "base/events.hpp"
 #include "hal/port.hpp"
 #include "wire/cob_id.hpp"

@@ -2,7 +2,7 @@
 #include "node/parts.hpp"
 
 #include "base/callbacks.hpp"
-#include "base/count.hpp"
+#include "base/error.hpp"
 #include "base/transmit.hpp"
 #include "co_assert.h"
 #include "hal/port.hpp"

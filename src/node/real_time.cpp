@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A second thread for SYNC and PDOs: CONodeRealTime().
-#include "base/count.hpp"
-#include "base/receive.hpp"
+#include "base/error.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"

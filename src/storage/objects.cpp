@@ -6,7 +6,6 @@
 #include "dictionary/types/integer.hpp"
 #include "hal/port.hpp"
 #include "storage/budget.hpp"
-#include "storage/groups.hpp"
 #include "storage/para.hpp"
 
 #if USE_PARA

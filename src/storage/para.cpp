@@ -11,7 +11,6 @@
 #include "dictionary/obj.hpp"
 #include "hal/port.hpp"
 #include "storage/budget.hpp"
-#include "storage/groups.hpp"
 #include "storage/store.hpp"
 
 namespace co::para {

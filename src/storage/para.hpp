@@ -3,6 +3,8 @@
 #pragma once
 
 #include "base/part.hpp"
+#include "co_assert.h"
+#include "co_core.h"
 #include "storage/store.hpp"
 
 namespace co::para {
@@ -29,5 +31,41 @@ void on_write(CO_NODE* node, const CO_OBJ* obj);
                           store::Cause cause = store::Cause::command);
 
 inline constexpr Part part = Part().load(load_groups).mode(on_mode).reset([](CO_NODE& node) { save_changes(&node); });
+
+// Parameter groups of 1010h and 1011h.
+
+constexpr uint16_t store_index = 0x1010;
+constexpr uint16_t restore_index = 0x1011;
+constexpr unsigned version_bit = 8;  // lowest bit of the version in CO_PARA.Value
+constexpr uint16_t verify_index = 0x1020;
+
+inline uint8_t* memory_of(const CO_PARA& group) { return group.Start; }
+constexpr bool is_saved_on_command(const CO_PARA& group) { return (group.Value & CO_PARA___E) != 0; }
+constexpr bool is_saved_autonomously(const CO_PARA& group) { return (group.Value & CO_PARA__A_) != 0; }
+
+// The groups of 1010h or 1011h: sub-index 1 stands for all that follow it, if any do. [301:7.5.2.13]
+class Groups {
+ public:
+  Groups(CO_NODE& node, uint16_t index);
+
+  // Returns the next group; null: there is none.
+  [[nodiscard]] const CO_PARA* next();
+
+  // Returns whether sub-index 1 stands for other groups.
+  [[nodiscard]] bool are_several() const { return last_ > 1; }
+
+  // Returns the entry whose group next() has returned.
+  [[nodiscard]] const CO_OBJ& entry() const {
+    CO_ASSERT(entry_ != nullptr);
+    return *entry_;
+  }
+
+ private:
+  CO_NODE& node_;
+  const CO_OBJ* entry_;
+  uint16_t index_;
+  uint8_t sub_;
+  uint8_t last_;
+};
 
 }  // namespace co::para

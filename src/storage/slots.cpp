@@ -5,7 +5,7 @@
 #include "co_assert.h"
 #include "hal/port.hpp"
 #include "storage/budget.hpp"
-#include "wire/crc32.hpp"
+#include "wire/crc.hpp"
 
 #if USE_PARA
 

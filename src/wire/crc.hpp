@@ -2,6 +2,7 @@
 // CRC-16-CCITT: x^16 + x^12 + x^5 + 1, start value 0. [301:7.2.4.3.16]
 #pragma once
 
+#include <stddef.h>
 #include <stdint.h>
 
 namespace co::wire {
@@ -42,5 +43,34 @@ static_assert(crc16(0, digits, sizeof digits) == 0x31C3);
 static_assert(crc16(crc16(0, digits, 4), digits + 4, 5) == 0x31C3);
 static_assert(crc16(crc16(0, digits, 3), digits + 3, 6) == 0x31C3);
 }  // namespace vectors
+
+// CRC-32 of records in non-volatile memory: polynomial 04C11DB7h, reflected. Small code rather than fast code: the
+// memory is slower.
+
+class Crc32 {
+ public:
+  constexpr void add(const uint8_t* bytes, size_t num) {
+    constexpr uint32_t reflected = 0xEDB88320;
+    for (size_t n = 0; n < num; ++n) {
+      remainder_ ^= bytes[n];
+      for (unsigned bit = 0; bit < 8; ++bit) {
+        remainder_ = (remainder_ >> 1) ^ ((remainder_ & 1U) != 0 ? reflected : 0);
+      }
+    }
+  }
+
+  [[nodiscard]] constexpr uint32_t value() const { return ~remainder_; }
+
+ private:
+  uint32_t remainder_ = UINT32_MAX;
+};
+
+constexpr uint32_t crc32_of_check() {
+  constexpr uint8_t digits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
+  Crc32 crc;
+  crc.add(digits, sizeof digits);
+  return crc.value();
+}
+static_assert(crc32_of_check() == 0xCBF43926);
 
 }  // namespace co::wire

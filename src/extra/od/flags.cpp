@@ -4,7 +4,6 @@
 #include "base/events.hpp"
 #include "extra/od/index.hpp"
 #include "service/pdo/configuration.hpp"
-#include "service/pdo/list.hpp"
 #include "service/pdo/multiplex.hpp"
 #include "service/pdo/pdo.hpp"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parameter groups: lookup by name or by variable, store and restore (co_od.h).
-#include "storage/groups.hpp"
+#include "storage/para.hpp"
 
 #include "base/events.hpp"
 #include "dictionary/obj.hpp"
 #include "extra/od/index.hpp"
-#include "extra/od/result.hpp"
+#include "extra/od/types.hpp"
 
 #if USE_OD && USE_PARA
 

@@ -9,14 +9,6 @@
 namespace co::od {
 namespace {
 
-[[nodiscard]] bool has_node_lock([[maybe_unused]] const CO_NODE& node) {
-#if USE_REAL_TIME
-  return node.Ext->Enter != nullptr;
-#else
-  return false;
-#endif
-}
-
 void lock_objects(CO_NODE& node) {
   if (node.OdLocked++ == 0 && node.Ext->OdLock != nullptr) {
     node.Ext->OdLock(node.Ext->User);
@@ -50,7 +42,7 @@ void OD_lock(CO_NODE_T* node) {
   if (!port::is_initialised(*node)) {
     return;
   }
-  od::has_node_lock(*node) ? port::lock_node(*node) : od::lock_objects(*node);
+  port::has_node_lock(*node) ? port::lock_node(*node) : od::lock_objects(*node);
 }
 
 void OD_unlock(CO_NODE_T* node) {
@@ -58,7 +50,7 @@ void OD_unlock(CO_NODE_T* node) {
   if (!port::is_initialised(*node)) {
     return;
   }
-  od::has_node_lock(*node) ? od::release_node_lock(*node) : od::unlock_objects(*node);
+  port::has_node_lock(*node) ? od::release_node_lock(*node) : od::unlock_objects(*node);
 }
 
 }  // extern "C"

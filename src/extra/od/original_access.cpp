@@ -7,7 +7,6 @@
 #include "dictionary/obj.hpp"
 #include "dictionary/types/stream.hpp"
 #include "extra/od/properties.hpp"
-#include "extra/od/result.hpp"
 #include "extra/od/types.hpp"
 #include "hal/port.hpp"
 #include "service/pdo/mapping.hpp"

@@ -2,9 +2,11 @@
 // Common functions of the types of extensible entries.
 #pragma once
 
+#include "co_core.h"
+#include "co_od.h"
 #include "extra/od/index.hpp"
 #include "extra/od/properties.hpp"
-#include "extra/od/result.hpp"
+#include "wire/abort.hpp"
 
 #if USE_OD
 
@@ -56,3 +58,16 @@ void report_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_orig
 }  // namespace co::od
 
 #endif
+
+// Conversion of SDO abort codes and error codes to ODR_t, the result type of the OD access interface (co_od.h).
+
+namespace co::od {
+
+// Returns the result for an SDO abort code; ODR_GENERAL if no result stands for this code.
+[[nodiscard]] ODR_t result_of(Abort abort);
+
+// Returns the result for the error code of a type function of the object. An abort code that the function has set by
+// COObjTypeUserSDOAbort() has priority over the error code.
+[[nodiscard]] ODR_t result_of(const CO_NODE& node, const CO_OBJ& obj, CO_ERR err);
+
+}  // namespace co::od

@@ -7,7 +7,7 @@
 #include "base/callbacks.hpp"
 #include "base/routes.hpp"
 #include "dictionary/parameter.hpp"
-#include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/emcy.hpp"
 

@@ -34,7 +34,7 @@ void send_queued(CO_NODE& node);
 // Returns the identifier of EMCY messages; wire::no_frame: no messages are sent.
 [[nodiscard]] uint32_t identifier(CO_NODE& node);
 
-// Queue of messages (queue.cpp), which CO_EMCY_QUEUE_N 0 omits (no_queue.cpp).
+// Queue of messages (queue.cpp), which CO_EMCY_QUEUE_N 0 omits.
 
 // Queues a message for the end of the API call, if there is an identifier; without queue, sends it.
 void send_message(CO_NODE& node, const CO_EMCY_MSG& msg);

@@ -2,16 +2,19 @@
 // Queue of EMCY messages that wait for the end of the API call, the inhibit time or the transmit queue. [301:7.2.7.1]
 #include "service/emcy/emcy.hpp"
 
-#if USE_EMCY && CO_EMCY_QUEUE_N > 0
-
-#include "base/count.hpp"
+#include "base/error.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/emcy.hpp"
 
+#if USE_EMCY
+
 namespace co::emcy {
+
+#if CO_EMCY_QUEUE_N > 0
+
 namespace {
 
 constexpr uint32_t key_inhibit = CO_DEV(0x1015, 0);
@@ -101,6 +104,23 @@ void withdraw(CO_NODE& node, uint32_t identifier) {
   }
   transmit::withdraw(node, identifier);
 }
+
+#else  // without queue and inhibit time, messages are sent at once
+
+void send_message(CO_NODE& node, const CO_EMCY_MSG& msg) {
+  const uint32_t id = identifier(node);
+  if (id != wire::no_frame) {
+    transmit::send(node, wire::emcy(id, msg));
+  }
+}
+
+void send_waiting(CO_NODE&) {}
+
+void stop_inhibit_time(CO_NODE&) {}
+
+void withdraw(CO_NODE& node, uint32_t identifier) { transmit::withdraw(node, identifier); }
+
+#endif
 
 }  // namespace co::emcy
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "service/lss/master.hpp"
+#include "service/lss/lss.hpp"
 
 #if USE_LSS_MASTER
 

@@ -77,7 +77,7 @@ struct Change {
 // Refuses also if the application has stopped the node.
 uint32_t ask_application([[maybe_unused]] CO_NODE& node, [[maybe_unused]] CO_ACCESS_LSS& access) {
 #if USE_ACCESS_HOOK
-  const uint8_t error = gate::ask(node, &CO_CALLBACKS::AccessLss, access);
+  const uint8_t error = access_hook::ask(node, &CO_CALLBACKS::AccessLss, access);
   const bool is_stopped = node.Nmt.Next == CO_INVALID;
   return error == manufacturers_error || is_stopped ? manufacturers_error | uint32_t{access.Specific} << 8 : error;
 #else

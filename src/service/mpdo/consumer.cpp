@@ -5,10 +5,9 @@
 #include "base/routes.hpp"
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
-#include "service/mpdo/lists.hpp"
 #include "service/mpdo/mpdo.hpp"
+#include "service/pdo/mapping.hpp"
 #include "service/pdo/multiplex.hpp"
-#include "service/pdo/rpdo.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/mpdo.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Object scanner list and object dispatching list. [301:7.5.2.39-40]
-#include "service/mpdo/lists.hpp"
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
+#include "service/mpdo/mpdo.hpp"
 #include "wire/mpdo.hpp"
 
 #if CO_MPDO_N > 0

@@ -5,7 +5,6 @@
 #include "base/events.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
-#include "service/mpdo/lists.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/multiplex.hpp"
 #include "wire/mpdo.hpp"

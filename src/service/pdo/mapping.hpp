@@ -2,6 +2,8 @@
 // Resolved PDO mappings: the mapping entries of a PDO, the copies that they require, and the copying itself.
 #pragma once
 
+#include "base/callbacks.hpp"
+#include "base/events.hpp"
 #include "co_core.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/lock.hpp"
@@ -19,7 +21,7 @@ enum class Direction : uint8_t { receive, transmit };
 // mapped object needs besides R or W: flag P if the network maps it, none if the designer does.
 enum class MappedBy : uint8_t { designer = 0, network = CO_OBJ____P__ };
 
-// Bits of CO_PDO_MAP.Flags; tpdo.hpp defines those of a TPDO.
+// Bits of CO_PDO_MAP.Flags; TpdoFlag has those of a TPDO.
 constexpr uint8_t transferred = 0x40;  // sent or received since the application has read it
 constexpr uint8_t changed = 0x80;      // configure_changed() configures the PDO
 
@@ -96,5 +98,57 @@ inline void mark_transferred(CO_PDO_MAP& map) {
 }
 [[nodiscard]] bool take_transferred(CO_PDO_MAP& map);
 [[nodiscard]] bool take_transferred(CO_PDO_MAP& map, uint16_t entry);
+
+// Reception of RPDOs, as far as multiplex PDOs share it
+// ----------------------------------------------------------------
+
+// Bits of CO_RPDO.Faults.
+enum RpdoFault : uint8_t {
+  too_short = 0x01,  // pdo_short is raised
+  too_long = 0x02,   // pdo_long is raised
+  late = 0x04,       // pdo_timeout is raised
+  unknown = 0x08,    // multiplex PDO: pdo_unknown is raised, because the frame names no object
+};
+
+// Returns whether the bit rate is being switched: RPDOs are ignored then.
+[[nodiscard]] inline bool is_switching([[maybe_unused]] const CO_NODE& node) {
+  return (USE_LSS != 0 || USE_LSS_MASTER != 0) && node.Transmit.Off != 0;
+}
+
+// Returns the number of the PDO from 1 as detail of its faults (255 for all numbers above).
+[[nodiscard]] uint8_t detail_of(const CO_RPDO& pdo);
+
+// Raises or resolves the given faults, from too_short to late, so that those in is are raised and the others are not.
+// Each change is reported once.
+void report(CO_RPDO& pdo, unsigned faults, unsigned is);
+
+// Restarts the deadline and resolves the fault of a missed one: a frame was received, or the deadline has changed.
+void restart_deadline(CO_RPDO& pdo);
+
+// Transmission of TPDOs, as far as multiplex PDOs share it
+// --------------------------------------------------------------
+
+// Bits of CO_PDO_MAP.Flags of a TPDO.
+enum TpdoFlag : uint8_t {
+  pending = 0x01,    // an event is deferred until the inhibit time has elapsed, or until the SYNC
+  inhibited = 0x02,  // event-driven: the inhibit time is running
+  sampled = 0x04,    // synchronous: Data holds the sample of the last SYNC
+  waiting = 0x08,    // Count holds the SYNC start value, which was not reached yet; else Count is the number of SYNCs
+  remote = 0x10,     // remote requests are allowed
+  marked = 0x20,     // send_marked() triggers the PDO
+};
+
+// Cause of a transmission: the event time after it starts now, or at the expiry of the timer, so that it does not
+// drift.
+enum class Cause : uint8_t { event, timer };
+
+[[nodiscard]] inline bool is_operational(const CO_NODE& node) { return event::is_allowed(node, CO_PDO_ALLOWED); }
+
+// Sends an event-driven PDO. On an error nothing is sent later, but the event timer is restarted. Events for this PDO
+// from its own callbacks are ignored while it is being sent.
+CO_ERR send_event(CO_TPDO& pdo, Cause cause);
+
+// Restarts the inhibit or event time of a PDO that was sent by an event.
+void restart(CO_TPDO& pdo);
 
 }  // namespace co::pdo

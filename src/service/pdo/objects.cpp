@@ -2,7 +2,7 @@
 // 1400h…1BFFh: communication and mapping parameters of PDOs. [301:7.5.2.35-38]
 #include "base/timer.hpp"
 #include "dictionary/parameter.hpp"
-#include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/multiplex.hpp"
 #include "wire/cob_id.hpp"

@@ -5,7 +5,6 @@
 #include "base/events.hpp"
 #include "hal/port.hpp"
 #include "service/pdo/configuration.hpp"
-#include "service/pdo/list.hpp"
 #include "service/pdo/multiplex.hpp"
 
 using namespace co;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/part.hpp"
+#include "co_core.h"
 
 namespace co::pdo {
 
@@ -87,3 +88,29 @@ namespace co::rpdo {
 inline constexpr Part part = Part().frames(pdo::on_frame).mode(pdo::on_mode_rpdos).sync(pdo::apply);
 
 }  // namespace co::rpdo
+
+// The PDOs of a node as ranges, which are empty where the configuration has none.
+
+namespace co::pdo {
+
+struct Pdos {
+  CO_PDO* first;
+  unsigned num;
+
+  [[nodiscard]] CO_PDO* begin() const { return first; }
+  [[nodiscard]] CO_PDO* end() const { return first + num; }
+};
+
+#if CO_RPDO_N > 0
+[[nodiscard]] inline Pdos rpdos(CO_NODE& node) { return {node.RPdo, CO_RPDO_N}; }
+#else
+[[nodiscard]] inline Pdos rpdos(CO_NODE&) { return {nullptr, 0}; }
+#endif
+
+#if CO_TPDO_N > 0
+[[nodiscard]] inline Pdos tpdos(CO_NODE& node) { return {node.TPdo, CO_TPDO_N}; }
+#else
+[[nodiscard]] inline Pdos tpdos(CO_NODE&) { return {nullptr, 0}; }
+#endif
+
+}  // namespace co::pdo

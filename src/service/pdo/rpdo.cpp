@@ -10,9 +10,9 @@
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "service/pdo/configuration.hpp"
+#include "service/pdo/mapping.hpp"
 #include "service/pdo/multiplex.hpp"
 #include "service/pdo/pdo.hpp"
-#include "service/pdo/rpdo.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 
@@ -205,6 +205,18 @@ bool was_received(CO_NODE& node, const CO_OBJ& obj) {
   }
   return was;
 }
+
+}  // namespace co::pdo
+
+#else  // functions for configurations without them
+
+namespace co::pdo {
+
+void end_rpdo(CO_NODE&, CO_PDO&) {}
+void begin_rpdo(CO_PDO&, uint32_t, uint32_t) {}
+void change_deadline(CO_NODE&, unsigned, uint32_t) {}
+bool was_received(CO_NODE&, uint16_t) { return false; }
+bool was_received(CO_NODE&, const CO_OBJ&) { return false; }
 
 }  // namespace co::pdo
 

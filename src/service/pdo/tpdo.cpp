@@ -11,9 +11,9 @@
 #include "base/transmit.hpp"
 #include "co_assert.h"
 #include "service/pdo/configuration.hpp"
+#include "service/pdo/mapping.hpp"
 #include "service/pdo/multiplex.hpp"
 #include "service/pdo/pdo.hpp"
-#include "service/pdo/tpdo.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 
@@ -410,6 +410,20 @@ bool was_sent(CO_NODE& node, const CO_OBJ& obj) {
   }
   return mpdo::was_sent(node, entry) || was;
 }
+
+}  // namespace co::pdo
+
+#else  // functions for configurations without them
+
+namespace co::pdo {
+
+void end_tpdo(CO_NODE&, CO_PDO&) {}
+void begin_tpdo(CO_PDO&, uint32_t, Remote) {}
+void change_event_time(CO_NODE&, unsigned, uint32_t) {}
+CO_ERR request(CO_NODE&, uint16_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
+CO_ERR request_object(CO_NODE&, const CO_OBJ&) { return CO_ERR_TPDO_OBJ_TRIGGER; }
+bool was_sent(CO_NODE&, uint16_t) { return false; }
+bool was_sent(CO_NODE&, const CO_OBJ&) { return false; }
 
 }  // namespace co::pdo
 

@@ -3,7 +3,7 @@
 #include "base/routes.hpp"
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
-#include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "service/sdo_client/transfer.hpp"
 #include "wire/cob_id.hpp"
 

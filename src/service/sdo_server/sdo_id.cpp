@@ -5,7 +5,7 @@
 #include "base/events.hpp"
 #include "co_core.h"
 #include "dictionary/parameter.hpp"
-#include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 
 namespace {

@@ -123,13 +123,6 @@ inline void run_handler(CO_SDO& channel, Handler handler, const CO_IF_FRM& reque
   return true;
 }
 
-#if USE_SDO_BLOCK
-Abort send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
-  silence(answer);
-  return send_segments(channel);
-}
-#endif
-
 // Returns the identifier in an entry, or no_frame. Without an entry the default server uses the predefined identifiers.
 // [301:7.3.5]
 [[gnu::noinline]] uint32_t identifier(CO_NODE& node, uint16_t number, uint8_t sub, wire::CobId base) {
@@ -186,20 +179,31 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   return is_valid;
 }
 
-bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
-  CO_ASSERT(number < CO_SSDO_N);
 #if USE_SDO_BLOCK
-  CO_SDO& channel = node.Sdo[number];
-  if (state_of(channel) == State::block_upload) {
-    const uint8_t before = channel.Seq;
-    run_handler(channel, send_next, wire::empty_frame(wire::no_frame), nullptr);
-    const bool sent = channel.Seq != before;
-    channel.Idle = sent ? 0 : channel.Idle;
-    return sent;
-  }
-#endif
-  return false;
+namespace {
+
+Abort send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
+  silence(answer);
+  return send_segments(channel);
 }
+
+}  // namespace
+
+bool on_free(CO_NODE& node, uint16_t number) {
+  CO_ASSERT(number < CO_SSDO_N);
+  CO_SDO& channel = node.Sdo[number];
+  if (state_of(channel) != State::block_upload) {
+    return false;
+  }
+  const uint8_t before = channel.Seq;
+  run_handler(channel, send_next, wire::empty_frame(wire::no_frame), nullptr);
+  const bool sent = channel.Seq != before;
+  channel.Idle = sent ? 0 : channel.Idle;
+  return sent;
+}
+#else
+bool on_free(CO_NODE&, uint16_t) { return false; }
+#endif
 
 void on_mode(CO_NODE& node) {
   if (event::is_allowed(node, CO_SDO_ALLOWED)) {

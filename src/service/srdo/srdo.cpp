@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "service/srdo/srdo.hpp"
+#include "service/srdo/configuration.hpp"
 
 #include "base/callbacks.hpp"
 #include "base/events.hpp"
@@ -7,7 +7,6 @@
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "co_assert.h"
-#include "service/srdo/configuration.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 #include "wire/srdo.hpp"

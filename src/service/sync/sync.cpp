@@ -7,7 +7,7 @@
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "dictionary/parameter.hpp"
-#include "dictionary/types/cob_id.hpp"
+#include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 
