@@ -65,53 +65,57 @@ extern "C" {
 
 /// \name Bits of the error register (1001h), for CO_EMCY_TBL.Reg. [CiA 301, 7.5.2.2]
 /// \{
-#define CO_EMCY_REG_GENERAL 0       ///< generic error: set with each of the others
-#define CO_EMCY_REG_CURRENT 1       ///< current
-#define CO_EMCY_REG_VOLTAGE 2       ///< voltage
-#define CO_EMCY_REG_TEMP 3          ///< temperature
-#define CO_EMCY_REG_COM 4           ///< communication
-#define CO_EMCY_REG_PROFILE 5       ///< device profile
-#define CO_EMCY_REG_MANUFACTURER 7  ///< manufacturer
-#define CO_EMCY_REG_NUM 8           ///< number of bits
+enum {
+  CO_EMCY_REG_GENERAL = 0,       ///< generic error: set with each of the others
+  CO_EMCY_REG_CURRENT = 1,       ///< current
+  CO_EMCY_REG_VOLTAGE = 2,       ///< voltage
+  CO_EMCY_REG_TEMP = 3,          ///< temperature
+  CO_EMCY_REG_COM = 4,           ///< communication
+  CO_EMCY_REG_PROFILE = 5,       ///< device profile
+  CO_EMCY_REG_MANUFACTURER = 7,  ///< manufacturer
+  CO_EMCY_REG_NUM = 8,           ///< number of bits
+};
 /// \}
 
 /// \name Error codes. [CiA 301, 7.2.7.1 table 26]
 /// \{
-#define CO_EMCY_CODE_NO_ERR 0x0000u                 ///< error reset, no error
-#define CO_EMCY_CODE_GEN_ERR 0x1000u                ///< generic error
-#define CO_EMCY_CODE_CUR_ERR 0x2000u                ///< current
-#define CO_EMCY_CODE_CUR_INPUT_ERR 0x2100u          ///< current, input side of the device
-#define CO_EMCY_CODE_CUR_INTERN_ERR 0x2200u         ///< current inside the device
-#define CO_EMCY_CODE_CUR_OUTPUT_ERR 0x2300u         ///< current, output side of the device
-#define CO_EMCY_CODE_VOL_ERR 0x3000u                ///< voltage
-#define CO_EMCY_CODE_VOL_INPUT_ERR 0x3100u          ///< mains voltage
-#define CO_EMCY_CODE_VOL_INTERN_ERR 0x3200u         ///< voltage inside the device
-#define CO_EMCY_CODE_VOL_OUTPUT_ERR 0x3300u         ///< output voltage
-#define CO_EMCY_CODE_TEMP_ERR 0x4000u               ///< temperature
-#define CO_EMCY_CODE_TEMP_AMBIENT_ERR 0x4100u       ///< ambient temperature
-#define CO_EMCY_CODE_TEMP_DEVICE_ERR 0x4200u        ///< device temperature
-#define CO_EMCY_CODE_HW_ERR 0x5000u                 ///< device hardware
-#define CO_EMCY_CODE_SW_ERR 0x6000u                 ///< device software
-#define CO_EMCY_CODE_SW_INTERNAL_ERR 0x6100u        ///< internal software
-#define CO_EMCY_CODE_SW_USER_ERR 0x6200u            ///< user software
-#define CO_EMCY_CODE_SW_DATASET_ERR 0x6300u         ///< data set
-#define CO_EMCY_CODE_ADD_MODULES_ERR 0x7000u        ///< additional modules
-#define CO_EMCY_CODE_MON_ERR 0x8000u                ///< monitoring
-#define CO_EMCY_CODE_MON_COM_ERR 0x8100u            ///< communication
-#define CO_EMCY_CODE_MON_COM_OVERRUN_ERR 0x8110u    ///< CAN overrun: received frames were lost
-#define CO_EMCY_CODE_MON_COM_PASSIVE_ERR 0x8120u    ///< CAN controller is error passive
-#define CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR 0x8130u  ///< life guard error or heartbeat error
-#define CO_EMCY_CODE_MON_COM_RECOVER_ERR 0x8140u    ///< recovered from bus-off
-#define CO_EMCY_CODE_MON_COM_COLLISION_ERR 0x8150u  ///< CAN-ID collision
-#define CO_EMCY_CODE_MON_PROT_ERR 0x8200u           ///< protocol error
-#define CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR 0x8210u   ///< PDO not processed: too short
-#define CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR 0x8220u   ///< PDO length exceeded
-#define CO_EMCY_CODE_MON_PROT_DAM_ERR 0x8230u       ///< MPDO with destination addressing not processed: no such object
-#define CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR 0x8240u  ///< unexpected data length of SYNC
-#define CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR 0x8250u  ///< RPDO timeout
-#define CO_EMCY_CODE_EXT_ERR 0x9000u                   ///< external error
-#define CO_EMCY_CODE_ADD_FUNC_ERR 0xF000u              ///< additional functions
-#define CO_EMCY_CODE_DEV_ERR 0xFF00u                   ///< device-specific
+enum {
+  CO_EMCY_CODE_NO_ERR = 0x0000,                    ///< error reset, no error
+  CO_EMCY_CODE_GEN_ERR = 0x1000,                   ///< generic error
+  CO_EMCY_CODE_CUR_ERR = 0x2000,                   ///< current
+  CO_EMCY_CODE_CUR_INPUT_ERR = 0x2100,             ///< current, input side of the device
+  CO_EMCY_CODE_CUR_INTERN_ERR = 0x2200,            ///< current inside the device
+  CO_EMCY_CODE_CUR_OUTPUT_ERR = 0x2300,            ///< current, output side of the device
+  CO_EMCY_CODE_VOL_ERR = 0x3000,                   ///< voltage
+  CO_EMCY_CODE_VOL_INPUT_ERR = 0x3100,             ///< mains voltage
+  CO_EMCY_CODE_VOL_INTERN_ERR = 0x3200,            ///< voltage inside the device
+  CO_EMCY_CODE_VOL_OUTPUT_ERR = 0x3300,            ///< output voltage
+  CO_EMCY_CODE_TEMP_ERR = 0x4000,                  ///< temperature
+  CO_EMCY_CODE_TEMP_AMBIENT_ERR = 0x4100,          ///< ambient temperature
+  CO_EMCY_CODE_TEMP_DEVICE_ERR = 0x4200,           ///< device temperature
+  CO_EMCY_CODE_HW_ERR = 0x5000,                    ///< device hardware
+  CO_EMCY_CODE_SW_ERR = 0x6000,                    ///< device software
+  CO_EMCY_CODE_SW_INTERNAL_ERR = 0x6100,           ///< internal software
+  CO_EMCY_CODE_SW_USER_ERR = 0x6200,               ///< user software
+  CO_EMCY_CODE_SW_DATASET_ERR = 0x6300,            ///< data set
+  CO_EMCY_CODE_ADD_MODULES_ERR = 0x7000,           ///< additional modules
+  CO_EMCY_CODE_MON_ERR = 0x8000,                   ///< monitoring
+  CO_EMCY_CODE_MON_COM_ERR = 0x8100,               ///< communication
+  CO_EMCY_CODE_MON_COM_OVERRUN_ERR = 0x8110,       ///< CAN overrun: received frames were lost
+  CO_EMCY_CODE_MON_COM_PASSIVE_ERR = 0x8120,       ///< CAN controller is error passive
+  CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR = 0x8130,     ///< life guard error or heartbeat error
+  CO_EMCY_CODE_MON_COM_RECOVER_ERR = 0x8140,       ///< recovered from bus-off
+  CO_EMCY_CODE_MON_COM_COLLISION_ERR = 0x8150,     ///< CAN-ID collision
+  CO_EMCY_CODE_MON_PROT_ERR = 0x8200,              ///< protocol error
+  CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR = 0x8210,      ///< PDO not processed: too short
+  CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR = 0x8220,      ///< PDO length exceeded
+  CO_EMCY_CODE_MON_PROT_DAM_ERR = 0x8230,          ///< MPDO with destination addressing not processed: no such object
+  CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR = 0x8240,     ///< unexpected data length of SYNC
+  CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR = 0x8250,  ///< RPDO timeout
+  CO_EMCY_CODE_EXT_ERR = 0x9000,                   ///< external error
+  CO_EMCY_CODE_ADD_FUNC_ERR = 0xF000,              ///< additional functions
+  CO_EMCY_CODE_DEV_ERR = 0xFF00,                   ///< device-specific
+};
 /// \}
 
 struct CO_NODE_T;
@@ -215,19 +219,21 @@ typedef struct CO_EMCY_BITS_T {
   uint8_t Stack;  ///< 1: two bytes with the errors of the stack follow (CO_EMCY_BIT_...); 0: none
 } CO_EMCY_BITS;
 
-#define CO_EMCY_BIT_OVERRUN 0              ///< 8110h: received frames were lost
-#define CO_EMCY_BIT_COLLISION 1            ///< 8150h: CAN-ID collision
-#define CO_EMCY_BIT_PASSIVE 2              ///< 8120h: error passive
-#define CO_EMCY_BIT_HEARTBEAT 3            ///< 8130h: a node is missing
-#define CO_EMCY_BIT_LIFE_GUARD 4           ///< 8130h: the NMT master is missing
-#define CO_EMCY_BIT_BUS_OFF 5              ///< 8140h: bus-off, until the recovery is reported
-#define CO_EMCY_BIT_PDO_SHORT 6            ///< 8210h: PDO too short
-#define CO_EMCY_BIT_PDO_LONG 7             ///< 8220h: PDO too long
-#define CO_EMCY_BIT_PDO_UNKNOWN 8          ///< 8230h: no object for an MPDO
-#define CO_EMCY_BIT_SYNC_LENGTH 9          ///< 8240h: SYNC with wrong length
-#define CO_EMCY_BIT_PDO_TIMEOUT 10         ///< 8250h: RPDO missing
-#define CO_EMCY_BIT_SRDO_CONFIGURATION 11  ///< 6300h: configuration of an SRDO
-#define CO_EMCY_BIT_SRDO 12                ///< 8200h: an SRDO has failed
+enum {
+  CO_EMCY_BIT_OVERRUN = 0,              ///< 8110h: received frames were lost
+  CO_EMCY_BIT_COLLISION = 1,            ///< 8150h: CAN-ID collision
+  CO_EMCY_BIT_PASSIVE = 2,              ///< 8120h: error passive
+  CO_EMCY_BIT_HEARTBEAT = 3,            ///< 8130h: a node is missing
+  CO_EMCY_BIT_LIFE_GUARD = 4,           ///< 8130h: the NMT master is missing
+  CO_EMCY_BIT_BUS_OFF = 5,              ///< 8140h: bus-off, until the recovery is reported
+  CO_EMCY_BIT_PDO_SHORT = 6,            ///< 8210h: PDO too short
+  CO_EMCY_BIT_PDO_LONG = 7,             ///< 8220h: PDO too long
+  CO_EMCY_BIT_PDO_UNKNOWN = 8,          ///< 8230h: no object for an MPDO
+  CO_EMCY_BIT_SYNC_LENGTH = 9,          ///< 8240h: SYNC with wrong length
+  CO_EMCY_BIT_PDO_TIMEOUT = 10,         ///< 8250h: RPDO missing
+  CO_EMCY_BIT_SRDO_CONFIGURATION = 11,  ///< 6300h: configuration of an SRDO
+  CO_EMCY_BIT_SRDO = 12,                ///< 8200h: an SRDO has failed
+};
 
 extern const CO_OBJ_TYPE COTEmcyBits CO_NEEDS(USE_EMCY);  ///< functions of CO_TEMCY_BITS
 

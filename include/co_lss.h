@@ -43,13 +43,15 @@ struct CO_NODE_T;
 
 /// \name Command specifiers of services that change the slave
 /// \{
-#define CO_LSS_SERVICE_SWITCH_GLOBAL 0x04u     ///< switch state global
-#define CO_LSS_SERVICE_NODE_ID 0x11u           ///< configure node-ID
-#define CO_LSS_SERVICE_BIT_TIMING 0x13u        ///< configure bit timing parameters
-#define CO_LSS_SERVICE_ACTIVATE 0x15u          ///< activate bit timing parameters
-#define CO_LSS_SERVICE_STORE 0x17u             ///< store configuration
-#define CO_LSS_SERVICE_SWITCH_SELECTIVE 0x43u  ///< switch state selective: whole address has matched (last of 40h…43h)
-#define CO_LSS_SERVICE_FASTSCAN 0x51u          ///< fastscan: whole address has matched
+enum {
+  CO_LSS_SERVICE_SWITCH_GLOBAL = 0x04,     ///< switch state global
+  CO_LSS_SERVICE_NODE_ID = 0x11,           ///< configure node-ID
+  CO_LSS_SERVICE_BIT_TIMING = 0x13,        ///< configure bit timing parameters
+  CO_LSS_SERVICE_ACTIVATE = 0x15,          ///< activate bit timing parameters
+  CO_LSS_SERVICE_STORE = 0x17,             ///< store configuration
+  CO_LSS_SERVICE_SWITCH_SELECTIVE = 0x43,  ///< switch state selective: whole address has matched (last of 40h…43h)
+  CO_LSS_SERVICE_FASTSCAN = 0x51,          ///< fastscan: whole address has matched
+};
 /// \}
 
 /// The LSS slave of a node. The application must not access its members.

@@ -60,17 +60,21 @@ struct CO_LSSM_T;
 
 /// \name Parts of an LSS address, in the order of 1018h
 /// \{
-#define CO_LSSM_VENDOR 0u    ///< vendor-ID
-#define CO_LSSM_PRODUCT 1u   ///< product code
-#define CO_LSSM_REVISION 2u  ///< revision number
-#define CO_LSSM_SERIAL 3u    ///< serial number
-#define CO_LSSM_PARTS 4u     ///< number of parts
+enum {
+  CO_LSSM_VENDOR = 0,    ///< vendor-ID
+  CO_LSSM_PRODUCT = 1,   ///< product code
+  CO_LSSM_REVISION = 2,  ///< revision number
+  CO_LSSM_SERIAL = 3,    ///< serial number
+  CO_LSSM_PARTS = 4,     ///< number of parts
+};
 /// \}
 
 /// \name States of slaves
 /// \{
-#define CO_LSSM_WAITING 0u        ///< LSS state waiting
-#define CO_LSSM_CONFIGURATION 1u  ///< LSS state configuration
+enum {
+  CO_LSSM_WAITING = 0,        ///< LSS state waiting
+  CO_LSSM_CONFIGURATION = 1,  ///< LSS state configuration
+};
 /// \}
 
 /// Result of a service.

@@ -149,9 +149,11 @@ extern const CO_OBJ_TYPE COTNmtStartup;  ///< functions of CO_TNMT_STARTUP
 /// executes by COErrorBehaviour(). All other values are refused (0609 0030h).
 /// \{
 
-#define CO_ERROR_BEHAVIOUR_PREOP 0u  ///< from Operational to Pre-operational
-#define CO_ERROR_BEHAVIOUR_NONE 1u   ///< no change of the NMT state
-#define CO_ERROR_BEHAVIOUR_STOP 2u   ///< from Operational or Pre-operational to Stopped
+enum {
+  CO_ERROR_BEHAVIOUR_PREOP = 0,  ///< from Operational to Pre-operational
+  CO_ERROR_BEHAVIOUR_NONE = 1,   ///< no change of the NMT state
+  CO_ERROR_BEHAVIOUR_STOP = 2,   ///< from Operational or Pre-operational to Stopped
+};
 
 extern const CO_OBJ_TYPE COTErrorBehaviour;  ///< functions of CO_TERROR_BEHAVIOUR
 

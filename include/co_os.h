@@ -43,21 +43,25 @@ extern "C" {
 
 /// \name Status of 1023h:2 and 1025h:2
 /// \{
-#define CO_OS_STATUS_DONE 0x00u          ///< last command completed without error, no reply
-#define CO_OS_STATUS_REPLY 0x01u         ///< last command completed without error, there is a reply
-#define CO_OS_STATUS_FAILED 0x02u        ///< last command completed with an error, no reply
-#define CO_OS_STATUS_FAILED_REPLY 0x03u  ///< last command completed with an error, there is a reply
-#define CO_OS_STATUS_EXECUTING 0xFFu     ///< a command is executed
+enum {
+  CO_OS_STATUS_DONE = 0x00,          ///< last command completed without error, no reply
+  CO_OS_STATUS_REPLY = 0x01,         ///< last command completed without error, there is a reply
+  CO_OS_STATUS_FAILED = 0x02,        ///< last command completed with an error, no reply
+  CO_OS_STATUS_FAILED_REPLY = 0x03,  ///< last command completed with an error, there is a reply
+  CO_OS_STATUS_EXECUTING = 0xFF,     ///< a command is executed
+};
 /// \}
 
 /// \name Values of 1024h
 /// \{
-#define CO_OS_MODE_IMMEDIATE 0u  ///< the next commands are executed immediately; the default
-#define CO_OS_MODE_BUFFERED 1u   ///< the next commands are stored; the status does not change
-/// Executes the stored commands in their order, then removes them. The first one that fails ends the execution.
-/// Refused while a command is executed (0800 0022h). The mode for the next commands does not change.
-#define CO_OS_MODE_EXECUTE 2u
-#define CO_OS_MODE_ABORT 3u  ///< aborts the command that is executed, and removes the stored ones
+enum {
+  CO_OS_MODE_IMMEDIATE = 0,  ///< the next commands are executed immediately; the default
+  CO_OS_MODE_BUFFERED = 1,   ///< the next commands are stored; the status does not change
+  /// Executes the stored commands in their order, then removes them. The first one that fails ends the execution.
+  /// Refused while a command is executed (0800 0022h). The mode for the next commands does not change.
+  CO_OS_MODE_EXECUTE = 2,
+  CO_OS_MODE_ABORT = 3,  ///< aborts the command that is executed, and removes the stored ones
+};
 /// \}
 
 struct CO_OS_COMMAND_T;

@@ -88,19 +88,23 @@ struct CO_NODE_T;
 
 /// \name Format of the plot
 /// \{
-#define CO_RECORDER_CSV 0u     ///< text, a line for each point
-#define CO_RECORDER_BINARY 1u  ///< 8 bytes for each point
-/// Gone: refused with 0609 0030h (CO_ERR_OBJ_RANGE). Read the plot as CSV and draw it on the host: tools/plot.
-#define CO_RECORDER_SVG 2u
-#define CO_RECORDER_UNSIGNED 0x10u  ///< added to one of these: the object is unsigned
+enum {
+  CO_RECORDER_CSV = 0,     ///< text, a line for each point
+  CO_RECORDER_BINARY = 1,  ///< 8 bytes for each point
+  /// Gone: refused with 0609 0030h (CO_ERR_OBJ_RANGE). Read the plot as CSV and draw it on the host: tools/plot.
+  CO_RECORDER_SVG = 2,
+  CO_RECORDER_UNSIGNED = 0x10,  ///< added to one of these: the object is unsigned
+};
 /// \}
 
 /// \name Trigger
 /// \{
-#define CO_RECORDER_FREE 0u     ///< no trigger: the last points are held
-#define CO_RECORDER_RISING 1u   ///< the value reaches the threshold from below
-#define CO_RECORDER_FALLING 2u  ///< the value falls below the threshold
-#define CO_RECORDER_BOTH 3u     ///< either
+enum {
+  CO_RECORDER_FREE = 0,     ///< no trigger: the last points are held
+  CO_RECORDER_RISING = 1,   ///< the value reaches the threshold from below
+  CO_RECORDER_FALLING = 2,  ///< the value falls below the threshold
+  CO_RECORDER_BOTH = 3,     ///< either
+};
 /// \}
 
 /// A recorded point.
