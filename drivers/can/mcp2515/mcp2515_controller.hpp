@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file mcp2515_controller.hpp
+/// Operations on a controller, for its driver.
+#ifndef CO_DRIVERS_MCP2515_CONTROLLER_HPP_
+#define CO_DRIVERS_MCP2515_CONTROLLER_HPP_
+
+#include <cstdint>
+
+#include "co_can_mcp2515.h"
+#include "mcp2515_filters.hpp"
+
+namespace co::mcp2515 {
+/// \cond internal
+
+using Can = CO_CAN_MCP2515;
+
+inline constexpr std::uint8_t no_answer = 0xFF;  ///< of a controller that is not connected
+inline constexpr std::uint8_t overflows = CO_MCP2515_EFLG_RX0OVR | CO_MCP2515_EFLG_RX1OVR;
+inline constexpr std::uint8_t receive_interrupts = CO_MCP2515_INT_RX(0) | CO_MCP2515_INT_RX(1);
+inline constexpr std::uint8_t transmit_interrupts = CO_MCP2515_INT_TX(0) | CO_MCP2515_INT_TX(1) | CO_MCP2515_INT_TX(2);
+inline constexpr std::uint8_t all_interrupts = receive_interrupts | transmit_interrupts | CO_MCP2515_INT_ERR;
+
+/// \name SPI instructions
+/// \{
+
+/// A transaction: CS is low during its life.
+class Transaction {
+ public:
+  explicit Transaction(const Can& can) : can_(can) { can_.Spi->Select(can_.SpiCtx, true); }
+  ~Transaction() { can_.Spi->Select(can_.SpiCtx, false); }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+
+  void transfer(std::uint8_t* bytes, unsigned number) {
+    can_.Spi->Transfer(can_.SpiCtx, bytes, static_cast<std::uint8_t>(number));
+  }
+
+ private:
+  const Can& can_;
+};
+
+template <unsigned number>
+void transact(const Can& can, std::uint8_t (&bytes)[number]) {
+  Transaction transaction(can);
+  transaction.transfer(bytes, number);
+}
+
+/// Two neighbouring registers.
+struct TwoRegisters {
+  std::uint8_t first;
+  std::uint8_t second;
+};
+
+std::uint8_t read(const Can& can, std::uint8_t address);
+TwoRegisters read_two(const Can& can, std::uint8_t address);
+std::uint8_t read_status(const Can& can);
+void write(const Can& can, std::uint8_t address, unsigned value);
+void clear_bits(const Can& can, std::uint8_t address, unsigned bits);
+void command(const Can& can, unsigned instruction);
+void write_control(const Can& can, unsigned bits);
+
+/// \}
+/// \name Modes
+/// \{
+
+/// Waits for Configuration mode. Returns false if the controller is not in it in time.
+bool await_configuration(const Can& can);
+/// Goes off the bus after the frame on the wire. A controller that does not follow is reset. Frames that were not sent
+/// are displaced.
+void enter_configuration(Can& can);
+/// Writes all registers that determine the function of the controller, which is in Configuration mode. Returns false if
+/// it does not answer.
+bool write_configuration(Can& can, const CO_CAN_MCP2515_RATE& rate);
+void leave_configuration(const Can& can);
+
+/// \}
+/// \name Frames
+/// \{
+
+/// Stores the results of transmissions, and requests the frames that wait.
+void request_waiting(Can& can);
+/// Accepts a frame for transmission, or refuses it (false).
+bool accept(Can& can, const CO_IF_FRM& frame);
+/// Starts to discard all frames. A frame that is on the wire is completed.
+void begin_drop(Can& can);
+/// Aborts the frames that are not on the wire and waits for the end of that on the wire. Results are stored.
+void await_idle_buffers(Can& can);
+/// Moves the received frames into the queue.
+void receive(Can& can, unsigned flags);
+
+/// \}
+/// \name Interrupts, and the use of SPI by loop and interrupt
+/// \{
+
+inline CO_MCP2515_BUS& bus_of(Can& can) { return can.Bus != nullptr ? *can.Bus : can.State.OwnBus; }
+
+/// An interrupt may occur at any point, but it ends before this context continues, with the same value of Holds.
+void hold(CO_MCP2515_BUS& bus);
+/// Does the work of the interrupts that have occurred since hold(), unless this context has interrupted another user.
+void release(CO_MCP2515_BUS& bus);
+
+/// The use of SPI by a function of the driver: the interrupts do not use it meanwhile.
+class Exclusive {
+ public:
+  explicit Exclusive(Can& can) : bus_(bus_of(can)) { hold(bus_); }
+  ~Exclusive() { release(bus_); }
+  Exclusive(const Exclusive&) = delete;
+  Exclusive& operator=(const Exclusive&) = delete;
+
+ private:
+  CO_MCP2515_BUS& bus_;
+};
+
+/// Does the work of the interrupt, until INT is high. What is left after some rounds is done by Read.
+void service(Can& can);
+
+inline bool has_interrupt(const Can& can) {
+  return can.Spi->HasInterrupt == nullptr || can.Spi->HasInterrupt(can.SpiCtx);
+}
+
+inline bool is_bus_off(const Can& can) {
+  return can.State.IsBusOff != 0 || (can.State.Flags & CO_MCP2515_EFLG_TXBO) != 0;
+}
+
+/// \}
+
+/// \endcond
+}  // namespace co::mcp2515
+
+#endif

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// Transmission through three buffers, and reception.
+#include "../report.hpp"
+#include "../transmit.hpp"
+#include "mcp2515_controller.hpp"
+
+// The controller can abort all buffers only: those that were not chosen need places, too.
+template <>
+inline constexpr unsigned co::transmit::room_of<CO_MCP2515_TRANSMIT> = CO_CAN_DISPLACED;
+
+namespace co::mcp2515 {
+namespace {
+
+// Limits of loops.
+constexpr unsigned status_reads = 20000;
+constexpr unsigned buffer_reads = 8;
+
+constexpr unsigned header_bytes = 5;  // SIDH, SIDL, EID8, EID0, DLC
+
+// Transmit buffers of a controller, for transmit.hpp. Among the requested ones, the controller sends that with the
+// highest priority TXP first, among equal ones that with the highest number. [MCP2515, 3.2]
+class Buffers {
+ public:
+  explicit Buffers(Can& can) : can_(can) {}
+
+  // A buffer without request has been sent if TXnIF is set; otherwise it was aborted.
+  transmit::Completed take_completed(unsigned used) {
+    if (used == 0 && can_.State.IsAborting == 0) {
+      return {};
+    }
+    const unsigned status = read_status(can_);
+    if (status == no_answer) {
+      return {};
+    }
+    transmit::Completed completed = {};
+    unsigned acknowledged = 0;
+    for (unsigned n = 0; n < CO_CAN_MAILBOXES; ++n) {
+      if ((used & (1U << n)) == 0 || (status & CO_MCP2515_STATUS_TXREQ(n)) != 0) {
+        continue;
+      }
+      completed.done |= 1U << n;
+      if ((status & CO_MCP2515_STATUS_TXIF(n)) != 0) {
+        completed.sent |= 1U << n;
+        acknowledged |= CO_MCP2515_INT_TX(n);
+      }
+    }
+    if (acknowledged != 0) {
+      clear_bits(can_, CO_MCP2515_CANINTF, acknowledged);
+    }
+    if (can_.State.IsAborting != 0 && (status & CO_MCP2515_STATUS_PENDING) == 0) {
+      end_abort();
+    }
+    return completed;
+  }
+
+  // Selects a buffer and its priority, so that the frames are sent in the order of their identifiers. None is returned
+  // if the frames in the buffers have neighbouring places in that order.
+  unsigned free_mailbox(unsigned used, const CO_IF_FRM& frame) {
+    if (can_.State.IsAborting != 0) {
+      return CO_CAN_MAILBOXES;
+    }
+    int above = -1;
+    int below = places;
+    for (unsigned n = 0; n < CO_CAN_MAILBOXES; ++n) {
+      if ((used & (1U << n)) == 0) {
+        continue;
+      }
+      const int place = can_.State.Priority[n] * CO_CAN_MAILBOXES + static_cast<int>(n);
+      const bool is_before = transmit::rank(can_.State.Transmit.Frame[n].Identifier) < transmit::rank(frame.Identifier);
+      below = is_before && place < below ? place : below;
+      above = !is_before && place > above ? place : above;
+    }
+    return place_between(used, above, below);
+  }
+
+  // CS rises at the end of the instruction RTS, which has no other byte. [Errata, 5]
+  void request(unsigned n, const CO_IF_FRM& frame) {
+    std::uint8_t bytes[3 + header_bytes + transmit::bytes_at_most] = {
+        CO_MCP2515_WRITE, static_cast<std::uint8_t>(CO_MCP2515_TXCTRL(n)), can_.State.Priority[n]};
+    put_header(frame, bytes + 3);
+    const bool is_remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
+    const unsigned length = is_remote ? 0 : transmit::length_of(frame);
+    for (unsigned i = 0; i < length; ++i) {
+      bytes[3 + header_bytes + i] = frame.Data[i];
+    }
+    {
+      Transaction transaction(can_);
+      transaction.transfer(bytes, 3 + header_bytes + length);
+    }
+    command(can_, CO_MCP2515_RTS(n));
+  }
+
+  // The controller aborts all buffers but that on the wire, for which take_completed() has no result yet. The request
+  // to abort a single one, TXREQ = 0, would not show whether its frame is on the wire.
+  void abort(unsigned /*mailboxes*/) {
+    begin_abort();
+    end_abort();
+    can_.State.Transmit.Aborting = can_.State.Transmit.Used;
+  }
+
+  void begin_abort() {
+    can_.State.IsAborting = 1;
+    write_control(can_, mode() | CO_MCP2515_ABAT);
+  }
+
+  void end_abort() {
+    can_.State.IsAborting = 0;
+    write_control(can_, mode());
+  }
+
+  // The controller does not show whether another node is transmitting.
+  bool is_delayed(unsigned n) {
+    const unsigned control = read(can_, static_cast<std::uint8_t>(CO_MCP2515_TXCTRL(n)));
+    return !can_.Loopback && (control & CO_MCP2515_TXCTRL_MLOA) != 0;
+  }
+
+ private:
+  static constexpr int priorities = 4;
+  static constexpr int places = priorities * CO_CAN_MAILBOXES;  // in the order of transmission, the last is the first
+
+  unsigned mode() const { return can_.Loopback ? CO_MCP2515_MODE_LOOPBACK : CO_MCP2515_MODE_NORMAL; }
+
+  // Returns the free buffer whose place is nearest to the middle between two others.
+  unsigned place_between(unsigned used, int above, int below) {
+    unsigned best = CO_CAN_MAILBOXES;
+    int least = places;
+    for (int place = above + 1; place < below; ++place) {
+      const unsigned n = static_cast<unsigned>(place) % CO_CAN_MAILBOXES;
+      const int from_middle = 2 * place - (above + below);
+      const int distance = from_middle < 0 ? -from_middle : from_middle;
+      if ((used & (1U << n)) == 0 && distance < least) {
+        least = distance;
+        best = n;
+        can_.State.Priority[n] = static_cast<std::uint8_t>(place / CO_CAN_MAILBOXES);
+      }
+    }
+    return best;
+  }
+
+  static void put_header(const CO_IF_FRM& frame, std::uint8_t* bytes) {
+    const std::uint32_t id = frame.Identifier & CO_IF_FRM_ID;
+    const bool is_extended = transmit::is_extended(frame.Identifier);
+    const std::uint32_t word = is_extended ? id : id << 18;
+    const unsigned remote = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? CO_MCP2515_DLC_RTR : 0;
+    bytes[0] = static_cast<std::uint8_t>(word >> 21);
+    bytes[1] = static_cast<std::uint8_t>((word >> 13 & 0xE0) | (is_extended ? CO_MCP2515_SIDL_EXIDE : 0) |
+                                         (word >> 16 & 0x03));
+    bytes[2] = static_cast<std::uint8_t>(word >> 8);
+    bytes[3] = static_cast<std::uint8_t>(word);
+    bytes[4] = static_cast<std::uint8_t>(remote | transmit::length_of(frame));
+  }
+
+  Can& can_;
+};
+
+CO_IF_FRM frame_of(const std::uint8_t* header) {
+  CO_IF_FRM frame{};
+  const bool is_extended = (header[1] & CO_MCP2515_SIDL_EXIDE) != 0;
+  const std::uint32_t base = (std::uint32_t{header[0]} << 3) | (header[1] >> 5);
+  const bool is_remote = is_extended ? (header[4] & CO_MCP2515_DLC_RTR) != 0 : (header[1] & CO_MCP2515_SIDL_SRR) != 0;
+  const std::uint32_t extension =
+      (std::uint32_t{header[1] & 0x03U} << 16) | (std::uint32_t{header[2]} << 8) | header[3];
+  frame.Identifier = (is_extended ? (base << 18) | extension | CO_IF_FRM_EXT : base) | (is_remote ? CO_IF_FRM_RTR : 0);
+  const unsigned length = header[4] & CO_MCP2515_DLC_LENGTH;
+  frame.DLC = static_cast<std::uint8_t>(length < transmit::bytes_at_most ? length : transmit::bytes_at_most);
+  return frame;
+}
+
+// Moves a frame into the queue. CS that rises frees the buffer.
+void take_frame(Can& can, unsigned buffer) {
+  std::uint8_t bytes[1 + header_bytes] = {static_cast<std::uint8_t>(CO_MCP2515_READ_RX(buffer))};
+  CO_IF_FRM frame{};
+  {
+    Transaction transaction(can);
+    transaction.transfer(bytes, sizeof bytes);
+    frame = frame_of(bytes + 1);
+    if (frame.DLC != 0 && (frame.Identifier & CO_IF_FRM_RTR) == 0) {
+      transaction.transfer(frame.Data, frame.DLC);
+    }
+  }
+  static_cast<void>(CORingPut(&can.State.Received, &frame));
+}
+
+}  // namespace
+
+void request_waiting(Can& can) {
+  if (can.State.IsBusOff == 0) {
+    Buffers buffers(can);
+    transmit::finish(can.State.Transmit, buffers);
+  }
+}
+
+bool accept(Can& can, const CO_IF_FRM& frame) {
+  Buffers buffers(can);
+  return transmit::accept(can.State.Transmit, buffers, frame);
+}
+
+void begin_drop(Can& can) {
+  CO_MCP2515_TRANSMIT& box = can.State.Transmit;
+  Buffers buffers(can);
+  box.DisplacedNum = 0;
+  box.Dropped = box.Used;
+  if (box.Used != 0) {
+    buffers.begin_abort();
+  }
+}
+
+void await_idle_buffers(Can& can) {
+  Buffers buffers(can);
+  buffers.begin_abort();
+  unsigned left = status_reads;
+  while (left != 0 && can.State.IsAborting != 0) {
+    transmit::collect(can.State.Transmit, buffers);
+    --left;
+  }
+}
+
+// Moves the received frames into the queue. Buffer 1 receives the next frame while buffer 0 is full: if it has one when
+// buffer 0 is freed, that frame is older than the next one in buffer 0.
+void receive(Can& can, unsigned flags) {
+  bool is_second_older = false;
+  for (unsigned n = 0; n < buffer_reads && (flags & receive_interrupts) != 0; ++n) {
+    const bool has_both = (flags & receive_interrupts) == receive_interrupts;
+    const unsigned buffer = (flags & CO_MCP2515_INT_RX(0)) == 0 || (has_both && is_second_older) ? 1 : 0;
+    take_frame(can, buffer);
+    if (buffer == 0) {
+      flags = read_status(can);
+      is_second_older = true;
+    } else {
+      flags &= ~unsigned{CO_MCP2515_INT_RX(1)};
+      is_second_older = false;
+    }
+  }
+}
+
+}  // namespace co::mcp2515
