@@ -18,26 +18,6 @@ Can& controller(void* ctx) { return *static_cast<Can*>(ctx); }
 
 // Joining and leaving the bus -----------------------------------------------------------------------------------------
 
-Filters filters(const Can& can) {
-  Filters all = {};
-  for (unsigned n = 0; n < filter_number; ++n) {
-    all.word[n] = can.State.FilterWord[n];
-  }
-  for (unsigned n = 0; n < receive_buffers; ++n) {
-    all.mask[n] = can.State.FilterMask[n];
-  }
-  return all;
-}
-
-void store_filters(Can& can, const Filters& all) {
-  for (unsigned n = 0; n < filter_number; ++n) {
-    can.State.FilterWord[n] = all.word[n];
-  }
-  for (unsigned n = 0; n < receive_buffers; ++n) {
-    can.State.FilterMask[n] = all.mask[n];
-  }
-}
-
 const CO_CAN_MCP2515_RATE* find_rate(const Can& can, std::uint32_t baud) {
   for (unsigned n = 0; n < can.RateNum; ++n) {
     if (can.Rates[n].Baud == baud) {
@@ -49,7 +29,7 @@ const CO_CAN_MCP2515_RATE* find_rate(const Can& can, std::uint32_t baud) {
 
 void leave_bus(Can& can) {
   enter_configuration(can);
-  write(can, CO_MCP2515_CANINTE, 0);
+  enable_interrupts(can, 0);
   can.State.Rate = nullptr;
   transmit::forget(can.State.Transmit);
   report::store(can.State.IsMissed, std::uint8_t{0});
@@ -72,7 +52,7 @@ void join_bus(Can& can, const CO_CAN_MCP2515_RATE& rate) {
   can.State.IsBusOff = 0;
   if (write_configuration(can, rate)) {
     can.State.Rate = &rate;
-    leave_configuration(can);
+    write_control(can, mode_on_bus(can));
   }
 }
 
@@ -85,7 +65,7 @@ void change_filters(Can& can) {
   }
   enter_configuration(can);
   static_cast<void>(write_configuration(can, *can.State.Rate));
-  leave_configuration(can);
+  write_control(can, mode_on_bus(can));
   request_waiting(can);
 }
 
@@ -99,23 +79,19 @@ State state_of(const Can& can) {
   return is_passive ? State::passive : State::active;
 }
 
-std::uint32_t lost_frames(const Can& can) {
-  return report::load(can.State.Report.Overflows) + CORingLost(&can.State.Received);
-}
-
 // Fills an error frame with the changes since the last report. Returns false if there are none. The error counters are
 // read only if there is something to report.
 bool report_events(Can& can, CO_IF_FRM& frame) {
   CO_CAN_REPORT& reported = can.State.Report;
   const State now = state_of(can);
-  const bool is_quiet = static_cast<std::uint8_t>(now) == reported.Reported &&
-                        lost_frames(can) == reported.ReportedLost &&
+  const std::uint32_t lost = COCanMcp2515Lost(&can);
+  const bool is_quiet = static_cast<std::uint8_t>(now) == reported.Reported && lost == reported.ReportedLost &&
                         report::load(reported.BusOffs) == reported.SeenBusOffs;
   if (is_quiet) {
     return false;
   }
   const CO_CAN_ERROR_COUNTERS errors = COCanMcp2515Errors(&can);
-  return report::take(reported, {report::observed(reported, now), errors, lost_frames(can)}, frame);
+  return report::take(reported, {report::observed(reported, now), errors, lost}, frame);
 }
 
 // Returns whether Read has to use SPI: for events without interrupt, or if the interrupt is not used.
@@ -142,11 +118,6 @@ void update(Can& can) {
   }
 }
 
-CO_CAN_ERROR_COUNTERS read_errors(const Can& can) {
-  const TwoRegisters counters = read_two(can, CO_MCP2515_TEC);
-  return {counters.first, counters.second};
-}
-
 // The driver ----------------------------------------------------------------------------------------------------------
 
 void add_to_bus(Can& can) {
@@ -165,11 +136,9 @@ void init(void* ctx) {
   const Exclusive exclusive(can);
   add_to_bus(can);
   leave_bus(can);
-  command(can, CO_MCP2515_RESET);
-  static_cast<void>(await_configuration(can));
-  write_control(can, CO_MCP2515_MODE_CONFIGURATION);
+  reset_controller(can);
   discard_received(can);
-  store_filters(can, open_filters());
+  can.State.Filters = open_filters();
 }
 
 void enable(void* ctx, std::uint32_t baud) {
@@ -235,11 +204,11 @@ void close(void* ctx) {
 
 void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
   Can& can = controller(ctx);
-  const Filters present = filters(can);
+  Filters& present = can.State.Filters;
   if (can.State.Rate != nullptr && !is_open(present) && all_pass(present, ids, num)) {
     return;
   }
-  store_filters(can, filters_of(ids, num));
+  present = filters_of(ids, num);
   if (can.State.Rate != nullptr) {
     const Exclusive exclusive(can);
     change_filters(can);
@@ -277,14 +246,17 @@ bool COCanMcp2515HasFrames(const CO_CAN_MCP2515* can) {
   return can != nullptr && CORingCount(&can->State.Received) != 0;
 }
 
-uint32_t COCanMcp2515Lost(const CO_CAN_MCP2515* can) { return can == nullptr ? 0 : lost_frames(*can); }
+uint32_t COCanMcp2515Lost(const CO_CAN_MCP2515* can) {
+  return can == nullptr ? 0 : co::report::load(can->State.Report.Overflows) + CORingLost(&can->State.Received);
+}
 
 CO_CAN_ERROR_COUNTERS COCanMcp2515Errors(CO_CAN_MCP2515* can) {
   if (can == nullptr) {
     return {};
   }
   const Exclusive exclusive(*can);
-  return read_errors(*can);
+  const TwoRegisters counters = read_two(*can, CO_MCP2515_TEC);
+  return {counters.first, counters.second};
 }
 
 }  // extern "C"

@@ -122,6 +122,12 @@ typedef struct CO_MCP2515_TRANSMIT_T {
   uint8_t Aborting;
 } CO_MCP2515_TRANSMIT;
 
+// Masks and filters of the controller: Mask[0] is that of Word[0…1], Mask[1] that of Word[2…5].
+typedef struct CO_MCP2515_ACCEPTANCE_T {
+  uint32_t Mask[2];
+  uint32_t Word[6];
+} CO_MCP2515_ACCEPTANCE;
+
 typedef struct CO_MCP2515_STATE_T {
   struct CO_CAN_MCP2515_T* Next;  // on the same SPI bus
   CO_MCP2515_BUS OwnBus;          // without CO_CAN_MCP2515.Bus
@@ -129,15 +135,14 @@ typedef struct CO_MCP2515_STATE_T {
   const CO_CAN_MCP2515_RATE* Rate;  // null: off the bus
   CO_MCP2515_TRANSMIT Transmit;
   CO_CAN_REPORT Report;
-  uint32_t FilterMask[2];
-  uint32_t FilterWord[6];
+  CO_MCP2515_ACCEPTANCE Filters;
   uint8_t Priority[CO_CAN_MAILBOXES];  // TXBnCTRL.TXP
   uint8_t Flags;                       // last value of EFLG, without overflows
   uint8_t IsMissed;                    // the interrupt has occurred, its work is not done
   uint8_t IsUnfinished;                // Read has to do more work
   uint8_t IsBusOff;                    // the controller stays in Configuration mode until Reset or Enable
   uint8_t IsAborting;                  // CANCTRL.ABAT is set
-  uint8_t IsErrorMasked;               // CANINTE.ERRIE is 0
+  uint8_t Enabled;                     // CANINTE
   uint8_t NeedsFilters;                // the filters are written after the recovery from bus-off
 } CO_MCP2515_STATE;
 /// \endcond

@@ -14,6 +14,8 @@ namespace co::mcp2515 {
 
 using Can = CO_CAN_MCP2515;
 
+/// Readings until a wait ends without success. The frame on the wire has to end before the controller goes off the bus.
+inline constexpr unsigned status_reads = 20000;
 inline constexpr std::uint8_t no_answer = 0xFF;  ///< of a controller that is not connected
 inline constexpr std::uint8_t overflows = CO_MCP2515_EFLG_RX0OVR | CO_MCP2515_EFLG_RX1OVR;
 inline constexpr std::uint8_t receive_interrupts = CO_MCP2515_INT_RX(0) | CO_MCP2515_INT_RX(1);
@@ -51,27 +53,31 @@ struct TwoRegisters {
   std::uint8_t second;
 };
 
-std::uint8_t read(const Can& can, std::uint8_t address);
-TwoRegisters read_two(const Can& can, std::uint8_t address);
+std::uint8_t read(const Can& can, unsigned address);
+TwoRegisters read_two(const Can& can, unsigned address);
 std::uint8_t read_status(const Can& can);
-void write(const Can& can, std::uint8_t address, unsigned value);
-void clear_bits(const Can& can, std::uint8_t address, unsigned bits);
+void write(const Can& can, unsigned address, unsigned value);
+void clear_bits(const Can& can, unsigned address, unsigned bits);
 void command(const Can& can, unsigned instruction);
 void write_control(const Can& can, unsigned bits);
+void enable_interrupts(Can& can, unsigned bits);
+/// Codes a word of mcp2515_filters.hpp for SIDH, SIDL, EID8 and EID0.
+void put_word(std::uint32_t word, std::uint8_t* bytes);
 
 /// \}
 /// \name Modes
 /// \{
 
-/// Waits for Configuration mode. Returns false if the controller is not in it in time.
-bool await_configuration(const Can& can);
+inline unsigned mode_on_bus(const Can& can) { return can.Loopback ? CO_MCP2515_MODE_LOOPBACK : CO_MCP2515_MODE_NORMAL; }
+
+/// Resets the controller, to Configuration mode.
+void reset_controller(const Can& can);
 /// Goes off the bus after the frame on the wire. A controller that does not follow is reset. Frames that were not sent
 /// are displaced.
 void enter_configuration(Can& can);
 /// Writes all registers that determine the function of the controller, which is in Configuration mode. Returns false if
 /// it does not answer.
 bool write_configuration(Can& can, const CO_CAN_MCP2515_RATE& rate);
-void leave_configuration(const Can& can);
 
 /// \}
 /// \name Frames

@@ -2,7 +2,6 @@
 #include "mcp2515_filters.hpp"
 
 #include "../mask_filters.hpp"
-#include "../transmit.hpp"
 
 namespace co::mcp2515 {
 namespace {
@@ -17,11 +16,7 @@ constexpr unsigned most_items = 12;
 using Items = mask_filters::Filters<std::uint32_t, most_items>;
 
 Item exactly(std::uint32_t identifier) {
-  const std::uint32_t id = identifier & CO_IF_FRM_ID;
-  if (!transmit::is_extended(identifier)) {
-    return {id << 18, standard_mask};
-  }
-  return {id | extended_bit, all_bits};
+  return {word_of(identifier), transmit::is_extended(identifier) ? all_bits : standard_mask};
 }
 
 // Returns the number of 11-bit identifiers, or of groups of 2^15 29-bit identifiers, that pass a filter.
@@ -158,10 +153,10 @@ Pair best_pair_from(const Items& items, unsigned first) {
 
 // Copies the filters of a buffer. Filters that are not needed repeat others.
 void store(Filters& filters, unsigned buffer, const Group& group) {
-  filters.mask[buffer] = group.mask & ~extended_bit;
+  filters.Mask[buffer] = group.mask & ~extended_bit;
   const unsigned first = buffer == 0 ? 0 : filters_of_buffer[0];
   for (unsigned n = 0; n < filters_of_buffer[buffer]; ++n) {
-    filters.word[first + n] = group.word[n < group.number ? n : 0];
+    filters.Word[first + n] = group.word[n < group.number ? n : 0];
   }
 }
 
@@ -181,11 +176,11 @@ Filters filters_of(const std::uint32_t* ids, unsigned num) {
 
 bool all_pass(const Filters& filters, const std::uint32_t* ids, unsigned num) {
   for (unsigned n = 0; n < num; ++n) {
-    const std::uint32_t word = exactly(ids[n]).word;
+    const std::uint32_t word = word_of(ids[n]);
     bool passes = false;
     for (unsigned i = 0; i < filter_number; ++i) {
-      const std::uint32_t mask = filters.mask[i < filters_of_buffer[0] ? 0 : 1] | extended_bit;
-      passes = passes || ((word ^ filters.word[i]) & mask) == 0;
+      const std::uint32_t mask = filters.Mask[i < filters_of_buffer[0] ? 0 : 1] | extended_bit;
+      passes = passes || ((word ^ filters.Word[i]) & mask) == 0;
     }
     if (!passes) {
       return false;

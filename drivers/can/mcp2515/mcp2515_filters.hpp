@@ -6,6 +6,9 @@
 
 #include <cstdint>
 
+#include "../transmit.hpp"
+#include "co_can_mcp2515.h"
+
 namespace co::mcp2515 {
 /// \cond internal
 
@@ -18,11 +21,13 @@ inline constexpr unsigned filter_number = 6;
 /// Numbers of filters of the receive buffers.
 inline constexpr unsigned filters_of_buffer[receive_buffers] = {2, 4};
 
-/// Masks and filters of the controller: Mask[0] is that of Word[0…1], Mask[1] that of Word[2…5]. Part of the context.
-struct Filters {
-  std::uint32_t mask[receive_buffers];
-  std::uint32_t word[filter_number];
-};
+using Filters = CO_MCP2515_ACCEPTANCE;
+
+/// Returns the word of an identifier, which is coded like in CO_IF_FRM.
+inline std::uint32_t word_of(std::uint32_t identifier) {
+  const std::uint32_t id = identifier & CO_IF_FRM_ID;
+  return transmit::is_extended(identifier) ? id | extended_bit : id << 18;
+}
 
 /// Returns filters that pass all frames.
 constexpr Filters open_filters() { return {{0, 0}, {0, extended_bit, 0, extended_bit, 0, extended_bit}}; }
@@ -35,7 +40,7 @@ Filters filters_of(const std::uint32_t* ids, unsigned num);
 bool all_pass(const Filters& filters, const std::uint32_t* ids, unsigned num);
 
 /// Returns whether all frames pass.
-inline bool is_open(const Filters& filters) { return filters.mask[0] == 0; }
+inline bool is_open(const Filters& filters) { return filters.Mask[0] == 0; }
 
 /// \endcond
 }  // namespace co::mcp2515

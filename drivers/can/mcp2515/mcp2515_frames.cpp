@@ -11,10 +11,7 @@ inline constexpr unsigned co::transmit::room_of<CO_MCP2515_TRANSMIT> = CO_CAN_DI
 namespace co::mcp2515 {
 namespace {
 
-// Limits of loops.
-constexpr unsigned status_reads = 20000;
 constexpr unsigned buffer_reads = 8;
-
 constexpr unsigned header_bytes = 5;  // SIDH, SIDL, EID8, EID0, DLC
 
 // Transmit buffers of a controller, for transmit.hpp. Among the requested ones, the controller sends that with the
@@ -48,7 +45,7 @@ class Buffers {
       clear_bits(can_, CO_MCP2515_CANINTF, acknowledged);
     }
     if (can_.State.IsAborting != 0 && (status & CO_MCP2515_STATUS_PENDING) == 0) {
-      end_abort();
+      request_abort(false);
     }
     return completed;
   }
@@ -93,32 +90,25 @@ class Buffers {
   // The controller aborts all buffers but that on the wire, for which take_completed() has no result yet. The request
   // to abort a single one, TXREQ = 0, would not show whether its frame is on the wire.
   void abort(unsigned /*mailboxes*/) {
-    begin_abort();
-    end_abort();
+    request_abort(true);
+    request_abort(false);
     can_.State.Transmit.Aborting = can_.State.Transmit.Used;
   }
 
-  void begin_abort() {
-    can_.State.IsAborting = 1;
-    write_control(can_, mode() | CO_MCP2515_ABAT);
-  }
-
-  void end_abort() {
-    can_.State.IsAborting = 0;
-    write_control(can_, mode());
+  void request_abort(bool is_requested) {
+    can_.State.IsAborting = is_requested ? 1 : 0;
+    write_control(can_, mode_on_bus(can_) | (is_requested ? CO_MCP2515_ABAT : 0));
   }
 
   // The controller does not show whether another node is transmitting.
   bool is_delayed(unsigned n) {
-    const unsigned control = read(can_, static_cast<std::uint8_t>(CO_MCP2515_TXCTRL(n)));
+    const unsigned control = read(can_, CO_MCP2515_TXCTRL(n));
     return !can_.Loopback && (control & CO_MCP2515_TXCTRL_MLOA) != 0;
   }
 
  private:
   static constexpr int priorities = 4;
   static constexpr int places = priorities * CO_CAN_MAILBOXES;  // in the order of transmission, the last is the first
-
-  unsigned mode() const { return can_.Loopback ? CO_MCP2515_MODE_LOOPBACK : CO_MCP2515_MODE_NORMAL; }
 
   // Returns the free buffer whose place is nearest to the middle between two others.
   unsigned place_between(unsigned used, int above, int below) {
@@ -138,15 +128,8 @@ class Buffers {
   }
 
   static void put_header(const CO_IF_FRM& frame, std::uint8_t* bytes) {
-    const std::uint32_t id = frame.Identifier & CO_IF_FRM_ID;
-    const bool is_extended = transmit::is_extended(frame.Identifier);
-    const std::uint32_t word = is_extended ? id : id << 18;
     const unsigned remote = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? CO_MCP2515_DLC_RTR : 0;
-    bytes[0] = static_cast<std::uint8_t>(word >> 21);
-    bytes[1] = static_cast<std::uint8_t>((word >> 13 & 0xE0) | (is_extended ? CO_MCP2515_SIDL_EXIDE : 0) |
-                                         (word >> 16 & 0x03));
-    bytes[2] = static_cast<std::uint8_t>(word >> 8);
-    bytes[3] = static_cast<std::uint8_t>(word);
+    put_word(word_of(frame.Identifier), bytes);
     bytes[4] = static_cast<std::uint8_t>(remote | transmit::length_of(frame));
   }
 
@@ -156,11 +139,10 @@ class Buffers {
 CO_IF_FRM frame_of(const std::uint8_t* header) {
   CO_IF_FRM frame{};
   const bool is_extended = (header[1] & CO_MCP2515_SIDL_EXIDE) != 0;
-  const std::uint32_t base = (std::uint32_t{header[0]} << 3) | (header[1] >> 5);
+  const std::uint32_t id = (std::uint32_t{header[0]} << 21) | ((header[1] & 0xE0U) << 13) |
+                           ((header[1] & 0x03U) << 16) | (std::uint32_t{header[2]} << 8) | header[3];
   const bool is_remote = is_extended ? (header[4] & CO_MCP2515_DLC_RTR) != 0 : (header[1] & CO_MCP2515_SIDL_SRR) != 0;
-  const std::uint32_t extension =
-      (std::uint32_t{header[1] & 0x03U} << 16) | (std::uint32_t{header[2]} << 8) | header[3];
-  frame.Identifier = (is_extended ? (base << 18) | extension | CO_IF_FRM_EXT : base) | (is_remote ? CO_IF_FRM_RTR : 0);
+  frame.Identifier = (is_extended ? id | CO_IF_FRM_EXT : id >> 18) | (is_remote ? CO_IF_FRM_RTR : 0);
   const unsigned length = header[4] & CO_MCP2515_DLC_LENGTH;
   frame.DLC = static_cast<std::uint8_t>(length < transmit::bytes_at_most ? length : transmit::bytes_at_most);
   return frame;
@@ -201,13 +183,13 @@ void begin_drop(Can& can) {
   box.DisplacedNum = 0;
   box.Dropped = box.Used;
   if (box.Used != 0) {
-    buffers.begin_abort();
+    buffers.request_abort(true);
   }
 }
 
 void await_idle_buffers(Can& can) {
   Buffers buffers(can);
-  buffers.begin_abort();
+  buffers.request_abort(true);
   unsigned left = status_reads;
   while (left != 0 && can.State.IsAborting != 0) {
     transmit::collect(can.State.Transmit, buffers);

@@ -42,16 +42,14 @@ void acknowledge_error(Can& can) {
   const TwoRegisters now = read_two(can, CO_MCP2515_CANINTF);
   store_flags(can, now.second);
   if ((now.first & CO_MCP2515_INT_ERR) != 0 && can.State.Flags != 0 && can.State.Flags == before) {
-    write(can, CO_MCP2515_CANINTE, all_interrupts & ~CO_MCP2515_INT_ERR);
-    can.State.IsErrorMasked = 1;
+    enable_interrupts(can, all_interrupts & ~CO_MCP2515_INT_ERR);
   }
 }
 
 void unmask_error(Can& can) {
-  if (can.State.IsErrorMasked != 0 && can.State.Flags == 0) {
+  if (can.State.Enabled != all_interrupts && can.State.Flags == 0) {
     clear_bits(can, CO_MCP2515_CANINTF, CO_MCP2515_INT_ERR);
-    write(can, CO_MCP2515_CANINTE, all_interrupts);
-    can.State.IsErrorMasked = 0;
+    enable_interrupts(can, all_interrupts);
   }
 }
 
@@ -61,7 +59,7 @@ bool service_once(Can& can) {
   if (flags.first == no_answer) {
     return false;
   }
-  const unsigned enabled = can.State.IsErrorMasked != 0 ? all_interrupts & ~CO_MCP2515_INT_ERR : all_interrupts;
+  const unsigned enabled = can.State.Enabled;
   store_flags(can, flags.second);
   unmask_error(can);
   receive(can, flags.first);

@@ -6,34 +6,33 @@
 namespace co::mcp2515 {
 namespace {
 
-// Limit of loops: the frame on the wire has to end before the controller goes off the bus.
-constexpr unsigned status_reads = 20000;
-
 // Writes neighbouring filters or masks.
 void write_words(const Can& can, unsigned address, const std::uint32_t* words, unsigned number) {
   for (unsigned n = 0; n < number; ++n) {
-    const std::uint32_t word = words[n];
-    std::uint8_t bytes[] = {CO_MCP2515_WRITE,
-                            static_cast<std::uint8_t>(address + 4 * n),
-                            static_cast<std::uint8_t>(word >> 21),
-                            static_cast<std::uint8_t>((word >> 13 & 0xE0) | (word >> 16 & 0x03) |
-                                                      ((word & extended_bit) != 0 ? CO_MCP2515_SIDL_EXIDE : 0)),
-                            static_cast<std::uint8_t>(word >> 8),
-                            static_cast<std::uint8_t>(word)};
+    std::uint8_t bytes[6] = {CO_MCP2515_WRITE, static_cast<std::uint8_t>(address + 4 * n)};
+    put_word(words[n], bytes + 2);
     transact(can, bytes);
   }
 }
 
+bool await_configuration(const Can& can) {
+  unsigned left = status_reads;
+  while (left != 0 && (read(can, CO_MCP2515_CANSTAT) & CO_MCP2515_MODE) != CO_MCP2515_MODE_CONFIGURATION) {
+    --left;
+  }
+  return left != 0;
+}
+
 }  // namespace
 
-std::uint8_t read(const Can& can, std::uint8_t address) {
-  std::uint8_t bytes[] = {CO_MCP2515_READ, address, 0};
+std::uint8_t read(const Can& can, unsigned address) {
+  std::uint8_t bytes[] = {CO_MCP2515_READ, static_cast<std::uint8_t>(address), 0};
   transact(can, bytes);
   return bytes[2];
 }
 
-TwoRegisters read_two(const Can& can, std::uint8_t address) {
-  std::uint8_t bytes[] = {CO_MCP2515_READ, address, 0, 0};
+TwoRegisters read_two(const Can& can, unsigned address) {
+  std::uint8_t bytes[] = {CO_MCP2515_READ, static_cast<std::uint8_t>(address), 0, 0};
   transact(can, bytes);
   return {bytes[2], bytes[3]};
 }
@@ -44,13 +43,14 @@ std::uint8_t read_status(const Can& can) {
   return bytes[1];
 }
 
-void write(const Can& can, std::uint8_t address, unsigned value) {
-  std::uint8_t bytes[] = {CO_MCP2515_WRITE, address, static_cast<std::uint8_t>(value)};
+void write(const Can& can, unsigned address, unsigned value) {
+  std::uint8_t bytes[] = {CO_MCP2515_WRITE, static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value)};
   transact(can, bytes);
 }
 
-void clear_bits(const Can& can, std::uint8_t address, unsigned bits) {
-  std::uint8_t bytes[] = {CO_MCP2515_BIT_MODIFY, address, static_cast<std::uint8_t>(bits), 0};
+void clear_bits(const Can& can, unsigned address, unsigned bits) {
+  std::uint8_t bytes[] = {CO_MCP2515_BIT_MODIFY, static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(bits),
+                          0};
   transact(can, bytes);
 }
 
@@ -63,12 +63,23 @@ void write_control(const Can& can, unsigned bits) {
   write(can, CO_MCP2515_CANCTRL, bits | (can.ClockOutput & CO_MCP2515_CLOCK_OUTPUT));
 }
 
-bool await_configuration(const Can& can) {
-  unsigned left = status_reads;
-  while (left != 0 && (read(can, CO_MCP2515_CANSTAT) & CO_MCP2515_MODE) != CO_MCP2515_MODE_CONFIGURATION) {
-    --left;
-  }
-  return left != 0;
+void enable_interrupts(Can& can, unsigned bits) {
+  write(can, CO_MCP2515_CANINTE, bits);
+  can.State.Enabled = static_cast<std::uint8_t>(bits);
+}
+
+void put_word(std::uint32_t word, std::uint8_t* bytes) {
+  const unsigned extended = (word & extended_bit) != 0 ? CO_MCP2515_SIDL_EXIDE : 0;
+  bytes[0] = static_cast<std::uint8_t>(word >> 21);
+  bytes[1] = static_cast<std::uint8_t>((word >> 13 & 0xE0) | extended | (word >> 16 & 0x03));
+  bytes[2] = static_cast<std::uint8_t>(word >> 8);
+  bytes[3] = static_cast<std::uint8_t>(word);
+}
+
+void reset_controller(const Can& can) {
+  command(can, CO_MCP2515_RESET);
+  static_cast<void>(await_configuration(can));
+  write_control(can, CO_MCP2515_MODE_CONFIGURATION);
 }
 
 void enter_configuration(Can& can) {
@@ -78,9 +89,7 @@ void enter_configuration(Can& can) {
   }
   write_control(can, CO_MCP2515_MODE_CONFIGURATION);
   if (!await_configuration(can)) {
-    command(can, CO_MCP2515_RESET);
-    static_cast<void>(await_configuration(can));
-    write_control(can, CO_MCP2515_MODE_CONFIGURATION);
+    reset_controller(can);
   }
   can.State.IsAborting = 0;
   transmit::take_back(can.State.Transmit);
@@ -89,23 +98,17 @@ void enter_configuration(Can& can) {
 bool write_configuration(Can& can, const CO_CAN_MCP2515_RATE& rate) {
   std::uint8_t timing[] = {CO_MCP2515_WRITE, CO_MCP2515_CNF3, static_cast<std::uint8_t>(rate.Timing),
                            static_cast<std::uint8_t>(rate.Timing >> 8), static_cast<std::uint8_t>(rate.Timing >> 16)};
-  const std::uint8_t written[] = {timing[2], timing[3], timing[4]};
   transact(can, timing);
-  std::uint8_t present[] = {CO_MCP2515_READ, CO_MCP2515_CNF3, 0, 0, 0};
+  std::uint8_t present[] = {CO_MCP2515_READ, CO_MCP2515_CNF3, 0, 0, 0, 0};  // CNF3, CNF2, CNF1, and one byte more
   transact(can, present);
-  write(can, static_cast<std::uint8_t>(CO_MCP2515_RXCTRL(0)), CO_MCP2515_RXCTRL_BUKT);
-  write(can, static_cast<std::uint8_t>(CO_MCP2515_RXCTRL(1)), 0);
-  write_words(can, CO_MCP2515_FILTERS, can.State.FilterWord, 3);
-  write_words(can, CO_MCP2515_FILTERS3, can.State.FilterWord + 3, 3);
-  write_words(can, CO_MCP2515_MASKS, can.State.FilterMask, receive_buffers);
-  write(can, CO_MCP2515_CANINTE, all_interrupts);
-  can.State.IsErrorMasked = 0;
+  write(can, CO_MCP2515_RXCTRL(0), CO_MCP2515_RXCTRL_BUKT);
+  write(can, CO_MCP2515_RXCTRL(1), 0);
+  write_words(can, CO_MCP2515_FILTERS, can.State.Filters.Word, 3);
+  write_words(can, CO_MCP2515_FILTERS3, can.State.Filters.Word + 3, 3);
+  write_words(can, CO_MCP2515_MASKS, can.State.Filters.Mask, receive_buffers);
+  enable_interrupts(can, all_interrupts);
   can.State.NeedsFilters = 0;
-  return present[2] == written[0] && present[3] == written[1] && present[4] == written[2];
-}
-
-void leave_configuration(const Can& can) {
-  write_control(can, can.Loopback ? CO_MCP2515_MODE_LOOPBACK : CO_MCP2515_MODE_NORMAL);
+  return ((rate.Timing ^ transmit::word_at(present + 2)) & 0xFFFFFF) == 0;
 }
 
 }  // namespace co::mcp2515
