@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-extern const CO_FLASH_PAGES FlashStm32f4;  ///< flash_stm32f4.c
-extern const CO_FLASH_PAGES FlashStm32g4;  ///< flash_stm32g4.c
+extern const CO_FLASH_PAGES FlashStm32f4;  ///< flash_stm32.c
+extern const CO_FLASH_PAGES FlashStm32g4;  ///< flash_stm32.c
 extern const CO_FLASH_PAGES FlashStm32h7;  ///< flash_stm32h7.c
 
 /// Notes that a damaged double word of the parameters was read. Call it in NMI_Handler() of an STM32G4.

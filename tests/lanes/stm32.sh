@@ -9,8 +9,7 @@ lane() {
   build_tree stm32-nucleo_f446re --toolchain "$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_PRESET=slave \
     -DLEXICAN_CPU=cortex-m4 -DLEXICAN_BOARD=nucleo_f446re && pass &&
     check "an oscillator that does not start: the LED blinks" blinks_without_oscillator "$build/stm32-nucleo_f446re/node.elf"
-  compile_memory flash_stm32f4 cortex-m4 flash_pages
-  compile_memory flash_stm32g4 cortex-m4 flash_pages
+  compile_memory flash_stm32 cortex-m4 flash_pages
   compile_memory flash_stm32h7 cortex-m7 flash_pages
   compile_memory eeprom_i2c_pins cortex-m0 flash_pages eeprom_i2c eeprom_spi
   compile_memory eeprom_spi_pins cortex-m0 flash_pages eeprom_i2c eeprom_spi
