@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file board.h
-/// Functions and constants of a board, which its folder defines.
+/// Description of a board, which its folder defines, and its use.
 #ifndef BOARD_H_
 #define BOARD_H_
 
@@ -13,31 +13,43 @@
 /// Returns the register at an address.
 #define BOARD_REGISTER(address) (*(volatile uint32_t*)(address))
 
-extern const uint32_t BoardHz;  ///< clock of the CPU
-extern const CO_IF_CAN_DRV_EX* const BoardCan;
-extern void* const BoardCanContext;
-extern const CO_IF_NVM_DRV_EX* const BoardMemory;  ///< null: the board stores no parameters
-extern void* const BoardMemoryContext;
+/// Write access to a register: clears bits and sets bits, then waits until the bits Await of it are set (0: none).
+typedef struct BOARD_STEP {
+  uint32_t Address, Clear, Set, Await;
+} BOARD_STEP;
 
-/// Sets up clocks, pins and the interrupts of the CAN controller. Called first in main().
-void BoardStart(void);
+typedef struct BOARD {
+  uint32_t Hz;              ///< clock of the CPU
+  const BOARD_STEP* Steps;  ///< sets up pins, LED first, then clocks, then the clock of the CAN controller
+  uint32_t StepNum;
+  uint32_t LedAddress, LedOn, LedOff;  ///< values of this register switch the LED
+  uint32_t Interrupts;                 ///< those of the CAN controller; bit n: interrupt n
+  const CO_IF_CAN_DRV_EX* Can;
+  void* CanContext;
+  const CO_IF_NVM_DRV_EX* Memory;  ///< null: the board stores no parameters
+  void* MemoryContext;
+} BOARD;
 
-/// Switches the LED of the board.
-void BoardLed(bool on);
+extern const BOARD Board;
 
-/// Blinks the LED five to ten times a second and does not return. A product lets its watchdog reset the board.
-void BoardBlink(void);
-
-/// Calls the interrupt function of the CAN driver.
+/// Calls the interrupt function of the CAN driver. Defined by the board.
 void BoardCanInterrupt(void);
 
-/// Returns true if received frames wait until they are read.
+/// Returns true if received frames wait until they are read. Defined by the board.
 bool BoardCanHasFrames(void);
 
 /// Handles the NMI. A board defines it if its memory needs it; the one of start.c stops the program.
 void NmiHandler(void);
 
-/* Stops the firmware. */
+/// Executes the steps of the board and enables the interrupts of its CAN controller. Called first in main(). If a bit
+/// is not set within about 0.2 s, a clock does not start: the LED blinks five to ten times a second, and the function
+/// does not return. A product lets its watchdog reset the board.
+void BoardStart(void);
+
+/// Switches the LED of the board.
+void BoardLed(bool on);
+
+/// Stops the firmware.
 void Fault(void);
 
 /// \name Interrupts, defined by main.c
@@ -45,26 +57,5 @@ void Fault(void);
 void CanHandler(void);
 void SysTickHandler(void);
 /// \}
-
-/// Enables an interrupt of the CPU.
-static inline void BoardEnableInterrupt(unsigned number) {
-  BOARD_REGISTER(0xE000E100u + 4u * (number / 32u)) = 1u << number % 32u;
-}
-
-/// Waits until bits of a register are set, and calls BoardBlink() after about 0.2 s without them: a clock does not
-/// start.
-static inline void BoardAwait(uint32_t address, uint32_t bits) {
-  for (uint32_t n = 0; n < 200000u; ++n) {
-    if ((BOARD_REGISTER(address) & bits) == bits) {
-      return;
-    }
-  }
-  BoardBlink();
-}
-
-/// Changes bits of a register.
-static inline void BoardChange(uint32_t address, uint32_t clear, uint32_t set) {
-  BOARD_REGISTER(address) = (BOARD_REGISTER(address) & ~clear) | set;
-}
 
 #endif

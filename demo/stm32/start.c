@@ -18,13 +18,39 @@ void Start(void) {
   (void)main();
 }
 
-// The CPU runs with its internal oscillator of 8 or 16 MHz.
-void BoardBlink(void) {
+void BoardLed(bool on) { BOARD_REGISTER(Board.LedAddress) = on ? Board.LedOn : Board.LedOff; }
+
+static void Pause(uint32_t number) {
+  for (volatile uint32_t n = 0; n < number; n = n + 1) {
+  }
+}
+
+// Does not return. The CPU runs with its internal oscillator of 8 or 16 MHz.
+static void Blink(void) {
   for (bool on = true;; on = !on) {
     BoardLed(on);
-    for (volatile uint32_t n = 0; n < 100000u; n = n + 1) {
+    Pause(100000u);
+  }
+}
+
+static void Await(uint32_t address, uint32_t bits) {
+  for (uint32_t n = 0; n < 200000u; ++n) {
+    if ((BOARD_REGISTER(address) & bits) == bits) {
+      return;
     }
   }
+  Blink();
+}
+
+// A step takes more than 1 us: a clock that was enabled needs two cycles, the AHB of an STM32G4 needs 1 us.
+void BoardStart(void) {
+  for (uint32_t n = 0; n < Board.StepNum; ++n) {
+    const BOARD_STEP step = Board.Steps[n];
+    BOARD_REGISTER(step.Address) = (BOARD_REGISTER(step.Address) & ~step.Clear) | step.Set;
+    Await(step.Address, step.Await);
+    Pause(100u);
+  }
+  BOARD_REGISTER(0xE000E100u) = Board.Interrupts;
 }
 
 void Fault(void) {

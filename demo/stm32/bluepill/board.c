@@ -25,42 +25,29 @@ static CO_IF_FRM Frames[32];
 static CO_CAN_BXCAN Can = {
     .Registers = CO_CAN_BXCAN_1, .BankNum = 14, .Rates = Rates, .RateNum = 4, .Frames = Frames, .FrameNum = 32};
 
-const uint32_t BoardHz = 72000000;
-const CO_IF_CAN_DRV_EX* const BoardCan = &BxcanCanDriver;
-void* const BoardCanContext = &Can;
-const CO_IF_NVM_DRV_EX* const BoardMemory = NULL;
-void* const BoardMemoryContext = NULL;
+static const BOARD_STEP Steps[] = {
+    {RCC_APB2ENR, 0, (1u << 0) | (1u << 3) | (1u << 4), 0},  // AFIO, GPIOB, GPIOC
+    {AFIO_MAPR, 3u << 13, 2u << 13, 0},                      // CAN at PB8 and PB9
+    {GPIOB_BSRR, 0, 1u << 8, 0},                             // pull-up, not pull-down
+    {GPIOB_CRH, 0xFFu, 0xB8u, 0},                            // PB8: input, PB9: alternate function
+    {GPIOC_CRH, 0xF00000u, 0x200000u, 0},
+    // 72 MHz from the crystal; APB1, and with it the CAN controller, has 36 MHz.
+    {RCC_CR, 0, 1u << 16, 1u << 17},
+    {FLASH_ACR, 7u, 2u, 0},                                         // two wait states
+    {RCC_CFGR, 0x3D0700u, (7u << 18) | (1u << 16) | (4u << 8), 0},  // PLL: HSE x 9; APB1: / 2
+    {RCC_CR, 0, 1u << 24, 1u << 25},
+    {RCC_CFGR, 3u, 2u, 2u << 2},
+    {RCC_APB1ENR, 0, 1u << 25, 0}};
 
-// 72 MHz from the crystal; APB1, and with it the CAN controller, has 36 MHz.
-static void StartClocks(void) {
-  BoardChange(RCC_CR, 0, 1u << 16);
-  BoardAwait(RCC_CR, 1u << 17);
-  BoardChange(FLASH_ACR, 7u, 2u);                                         // two wait states
-  BoardChange(RCC_CFGR, 0x3D0700u, (7u << 18) | (1u << 16) | (4u << 8));  // PLL: HSE x 9; APB1: / 2
-  BoardChange(RCC_CR, 0, 1u << 24);
-  BoardAwait(RCC_CR, 1u << 25);
-  BoardChange(RCC_CFGR, 3u, 2u);
-  BoardAwait(RCC_CFGR, 2u << 2);
-}
-
-static void StartPins(void) {
-  BoardChange(RCC_APB2ENR, 0, (1u << 0) | (1u << 3) | (1u << 4));  // AFIO, GPIOB, GPIOC
-  BoardChange(AFIO_MAPR, 3u << 13, 2u << 13);                      // CAN at PB8 and PB9
-  BOARD_REGISTER(GPIOB_BSRR) = 1u << 8;                            // pull-up, not pull-down
-  BoardChange(GPIOB_CRH, 0xFFu, 0xB8u);                            // PB8: input, PB9: alternate function
-  BoardChange(GPIOC_CRH, 0xF00000u, 0x200000u);
-}
-
-void BoardStart(void) {
-  StartPins();  // BoardBlink() needs the LED
-  StartClocks();
-  BoardChange(RCC_APB1ENR, 0, 1u << 25);
-  BoardEnableInterrupt(19);  // CAN1_TX
-  BoardEnableInterrupt(20);  // CAN1_RX0
-  BoardEnableInterrupt(22);  // CAN1_SCE
-}
-
-void BoardLed(bool on) { BOARD_REGISTER(GPIOC_BSRR) = on ? 1u << 29 : 1u << 13; }
+const BOARD Board = {.Hz = 72000000,
+                     .Steps = Steps,
+                     .StepNum = sizeof(Steps) / sizeof(Steps[0]),
+                     .LedAddress = GPIOC_BSRR,
+                     .LedOn = 1u << 29,
+                     .LedOff = 1u << 13,
+                     .Interrupts = (1u << 19) | (1u << 20) | (1u << 22),  // CAN1: TX, RX0, SCE
+                     .Can = &BxcanCanDriver,
+                     .CanContext = &Can};
 
 void BoardCanInterrupt(void) { COCanBxcanInterrupt(&Can); }
 

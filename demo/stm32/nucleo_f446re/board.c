@@ -27,45 +27,32 @@ static CO_IF_FRM Frames[32];
 static CO_CAN_BXCAN Can = {
     .Registers = CO_CAN_BXCAN_1, .BankNum = 14, .Rates = Rates, .RateNum = 4, .Frames = Frames, .FrameNum = 32};
 
-const uint32_t BoardHz = 168000000;
-const CO_IF_CAN_DRV_EX* const BoardCan = &BxcanCanDriver;
-void* const BoardCanContext = &Can;
-const CO_IF_NVM_DRV_EX* const BoardMemory = &FlashPagesNvmDriver;
-void* const BoardMemoryContext = (void*)&FlashStm32f4;
+static const BOARD_STEP Steps[] = {
+    {RCC_AHB1ENR, 0, 3u, 0},
+    {GPIOA_MODER, 3u << 10, 1u << 10, 0},  // PA5: output
+    {GPIOB_PUPDR, 3u << 16, 1u << 16, 0},  // PB8: pull-up
+    {GPIOB_AFRH, 0xFFu, 0x99u, 0},         // PB8, PB9: CAN1
+    {GPIOB_MODER, 0xFu << 16, (2u << 16) | (2u << 18), 0},
+    // 168 MHz from 8 MHz; APB1, and with it the CAN controllers, has 42 MHz.
+    {RCC_CR, 0, (1u << 16) | (1u << 18), 1u << 17},  // HSE, bypass
+    {FLASH_ACR, ~0u, (7u << 8) | 5u, 0},             // caches, prefetch, five wait states
+    {RCC_PLLCFGR, ~0u, (2u << 28) | (7u << 24) | (1u << 22) | (168u << 6) | 4u, 0},  // HSE / 4 x 168 / 2
+    {RCC_CR, 0, 1u << 24, 1u << 25},
+    {RCC_CFGR, 0xFC00u, (4u << 13) | (5u << 10), 0},  // APB2: / 2, APB1: / 4
+    {RCC_CFGR, 3u, 2u, 2u << 2},
+    {RCC_APB1ENR, 0, 1u << 25, 0}};
 
-// 168 MHz from 8 MHz; APB1, and with it the CAN controllers, has 42 MHz.
-static void StartClocks(void) {
-  BoardChange(RCC_CR, 0, (1u << 16) | (1u << 18));  // HSE, bypass
-  BoardAwait(RCC_CR, 1u << 17);
-  BOARD_REGISTER(FLASH_ACR) = (7u << 8) | 5u;  // caches, prefetch, five wait states
-  BOARD_REGISTER(RCC_PLLCFGR) = (2u << 28) | (7u << 24) | (1u << 22) | (168u << 6) | 4u;  // HSE / 4 x 168 / 2
-  BoardChange(RCC_CR, 0, 1u << 24);
-  BoardAwait(RCC_CR, 1u << 25);
-  BoardChange(RCC_CFGR, 0xFC00u, (4u << 13) | (5u << 10));  // APB2: / 2, APB1: / 4
-  BoardChange(RCC_CFGR, 3u, 2u);
-  BoardAwait(RCC_CFGR, 2u << 2);
-}
-
-static void StartPins(void) {
-  BoardChange(RCC_AHB1ENR, 0, 3u);
-  (void)BOARD_REGISTER(RCC_AHB1ENR);             // the clock needs two cycles
-  BoardChange(GPIOA_MODER, 3u << 10, 1u << 10);  // PA5: output
-  BoardChange(GPIOB_PUPDR, 3u << 16, 1u << 16);  // PB8: pull-up
-  BoardChange(GPIOB_AFRH, 0xFFu, 0x99u);         // PB8, PB9: CAN1
-  BoardChange(GPIOB_MODER, 0xFu << 16, (2u << 16) | (2u << 18));
-}
-
-void BoardStart(void) {
-  StartPins();  // BoardBlink() needs the LED
-  StartClocks();
-  BoardChange(RCC_APB1ENR, 0, 1u << 25);
-  (void)BOARD_REGISTER(RCC_APB1ENR);
-  BoardEnableInterrupt(19);  // CAN1_TX
-  BoardEnableInterrupt(20);  // CAN1_RX0
-  BoardEnableInterrupt(22);  // CAN1_SCE
-}
-
-void BoardLed(bool on) { BOARD_REGISTER(GPIOA_BSRR) = on ? 1u << 5 : 1u << 21; }
+const BOARD Board = {.Hz = 168000000,
+                     .Steps = Steps,
+                     .StepNum = sizeof(Steps) / sizeof(Steps[0]),
+                     .LedAddress = GPIOA_BSRR,
+                     .LedOn = 1u << 5,
+                     .LedOff = 1u << 21,
+                     .Interrupts = (1u << 19) | (1u << 20) | (1u << 22),  // CAN1: TX, RX0, SCE
+                     .Can = &BxcanCanDriver,
+                     .CanContext = &Can,
+                     .Memory = &FlashPagesNvmDriver,
+                     .MemoryContext = (void*)&FlashStm32f4};
 
 void BoardCanInterrupt(void) { COCanBxcanInterrupt(&Can); }
 

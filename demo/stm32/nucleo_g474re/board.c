@@ -25,59 +25,43 @@ static const CO_CAN_FDCAN_RATE Rates[] = {
     CO_CAN_FDCAN_RATE_OF(CAN_HZ, 500000, 48), CO_CAN_FDCAN_RATE_OF(CAN_HZ, 1000000, 24)};
 
 static CO_IF_FRM Frames[32];
-static CO_CAN_FDCAN Can;
+static CO_CAN_FDCAN Can = {.Registers = CO_CAN_FDCAN_1,
+                           .Ram = CO_CAN_FDCAN_RAM(0),
+                           .Rates = Rates,
+                           .RateNum = 4,
+                           .Frames = Frames,
+                           .FrameNum = 32};
 
-const uint32_t BoardHz = 170000000;
-const CO_IF_CAN_DRV_EX* const BoardCan = &FdcanCanDriver;
-void* const BoardCanContext = &Can;
-const CO_IF_NVM_DRV_EX* const BoardMemory = &FlashPagesNvmDriver;
-void* const BoardMemoryContext = (void*)&FlashStm32g4;
+static const BOARD_STEP Steps[] = {
+    {RCC_AHB2ENR, 0, 1u, 0},
+    {GPIOA_PUPDR, 3u << 22, 1u << 22, 0},                                               // PA11: pull-up
+    {GPIOA_AFRH, 0xFFu << 12, 0x99u << 12, 0},                                          // PA11, PA12: FDCAN1
+    {GPIOA_MODER, (3u << 10) | (0xFu << 22), (1u << 10) | (2u << 22) | (2u << 24), 0},  // PA5: output
+    // 170 MHz from the crystal, in range 1 boost mode of the regulator [RM0440, 6.1.5]. The CAN controller has the
+    // clock of the crystal, 24 MHz, so that all its bit rates are exact.
+    {RCC_CR, 0, 1u << 16, 1u << 17},
+    {RCC_APB1ENR1, 0, 1u << 28, 0},  // PWR
+    {RCC_CFGR, 0xF0u, 8u << 4, 0},   // AHB / 2 until 1 us after the switch of the clock
+    {PWR_CR5, 1u << 8, 0, 0},        // R1MODE: boost mode, for more than 150 MHz
+    {FLASH_ACR, 0xFu, 4u, 4u},       // four wait states
+    {RCC_PLLCFGR, ~0u, (1u << 24) | (85u << 8) | (5u << 4) | 3u, 0},  // HSE / 6 x 85 / 2
+    {RCC_CR, 0, 1u << 24, 1u << 25},
+    {RCC_CFGR, 3u, 3u, 3u << 2},
+    {RCC_CFGR, 0xF0u, 0, 0},
+    {RCC_CCIPR, 3u << 24, 0, 0},  // FDCAN: HSE
+    {RCC_APB1ENR1, 0, 1u << 25, 0}};
 
-// 170 MHz from the crystal, in range 1 boost mode of the regulator [RM0440, 6.1.5]. The CAN controller has the clock of
-// the crystal, 24 MHz, so that all its bit rates are exact.
-static void StartClocks(void) {
-  BoardChange(RCC_CR, 0, 1u << 16);
-  BoardAwait(RCC_CR, 1u << 17);
-  BoardChange(RCC_APB1ENR1, 0, 1u << 28);  // PWR
-  (void)BOARD_REGISTER(RCC_APB1ENR1);      // the clock needs two cycles
-  BoardChange(RCC_CFGR, 0xF0u, 8u << 4);   // AHB / 2 until 1 us after the switch of the clock
-  BoardChange(PWR_CR5, 1u << 8, 0);        // R1MODE: boost mode, for more than 150 MHz
-  BoardChange(FLASH_ACR, 0xFu, 4u);        // four wait states
-  BoardAwait(FLASH_ACR, 4u);
-  BOARD_REGISTER(RCC_PLLCFGR) = (1u << 24) | (85u << 8) | (5u << 4) | 3u;  // HSE / 6 x 85 / 2
-  BoardChange(RCC_CR, 0, 1u << 24);
-  BoardAwait(RCC_CR, 1u << 25);
-  BoardChange(RCC_CFGR, 3u, 3u);
-  BoardAwait(RCC_CFGR, 3u << 2);
-  for (volatile unsigned n = 0; n < 100; n = n + 1) {
-  }
-  BoardChange(RCC_CFGR, 0xF0u, 0);
-  BoardChange(RCC_CCIPR, 3u << 24, 0);  // FDCAN: HSE
-}
-
-static void StartPins(void) {
-  BoardChange(RCC_AHB2ENR, 0, 1u);
-  (void)BOARD_REGISTER(RCC_AHB2ENR);                  // the clock needs two cycles
-  BoardChange(GPIOA_PUPDR, 3u << 22, 1u << 22);       // PA11: pull-up
-  BoardChange(GPIOA_AFRH, 0xFFu << 12, 0x99u << 12);  // PA11, PA12: FDCAN1
-  BoardChange(GPIOA_MODER, (3u << 10) | (0xFu << 22), (1u << 10) | (2u << 22) | (2u << 24));  // PA5: output
-}
-
-void BoardStart(void) {
-  StartPins();  // BoardBlink() needs the LED
-  StartClocks();
-  BoardChange(RCC_APB1ENR1, 0, 1u << 25);
-  (void)BOARD_REGISTER(RCC_APB1ENR1);
-  Can.Registers = CO_CAN_FDCAN_1;
-  Can.Ram = CO_CAN_FDCAN_RAM(0);
-  Can.Rates = Rates;
-  Can.RateNum = 4;
-  Can.Frames = Frames;
-  Can.FrameNum = 32;
-  BoardEnableInterrupt(21);  // FDCAN1_IT0
-}
-
-void BoardLed(bool on) { BOARD_REGISTER(GPIOA_BSRR) = on ? 1u << 5 : 1u << 21; }
+const BOARD Board = {.Hz = 170000000,
+                     .Steps = Steps,
+                     .StepNum = sizeof(Steps) / sizeof(Steps[0]),
+                     .LedAddress = GPIOA_BSRR,
+                     .LedOn = 1u << 5,
+                     .LedOff = 1u << 21,
+                     .Interrupts = 1u << 21,  // FDCAN1_IT0
+                     .Can = &FdcanCanDriver,
+                     .CanContext = &Can,
+                     .Memory = &FlashPagesNvmDriver,
+                     .MemoryContext = (void*)&FlashStm32g4};
 
 // A double word of the flash whose programming a loss of power has interrupted was read.
 void NmiHandler(void) {
