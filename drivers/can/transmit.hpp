@@ -30,7 +30,7 @@
 
 #include <cstdint>
 
-#include "co_can_transmit.h"
+#include "co_can_controller.h"
 
 namespace co::transmit {
 

@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "can_wire.hpp"
+#include "co_can_controller.h"
 #include "co_can_mcp2515.h"
-#include "co_can_report.h"
 #include "co_if_can.h"
 #include "register_model.hpp"
 

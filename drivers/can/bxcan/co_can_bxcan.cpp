@@ -3,8 +3,7 @@
 
 #include <cstdint>
 
-#include "../registers.h"
-#include "../report.hpp"
+#include "../controller.hpp"
 #include "../transmit.hpp"
 #include "bxcan_filters.hpp"
 
@@ -26,8 +25,8 @@ constexpr unsigned fifo_reads = 32;
 
 CO_CAN_BXCAN& controller(void* ctx) { return *static_cast<CO_CAN_BXCAN*>(ctx); }
 
-std::uint32_t read(const volatile std::uint32_t& reg) { return lexican_reg_read(&reg); }
-void write(volatile std::uint32_t& reg, std::uint32_t value) { lexican_reg_write(&reg, value); }
+using registers::read;
+using registers::write;
 
 // Transmitting --------------------------------------------------------------------------------------------------------
 

@@ -47,8 +47,7 @@
 #ifndef CO_CAN_BXCAN_H_
 #define CO_CAN_BXCAN_H_
 
-#include "../co_can_report.h"
-#include "../co_can_transmit.h"
+#include "../co_can_controller.h"
 #include "bxcan_registers.h"
 #include "co_if_can.h"
 #include "co_ring.h"

@@ -7,8 +7,7 @@
 
 #include <cstdint>
 
-#include "../registers.h"
-#include "../report.hpp"
+#include "../controller.hpp"
 #include "../transmit.hpp"
 #include "co_can_fdcan.h"
 #include "fdcan_filters.hpp"
@@ -27,8 +26,8 @@ inline constexpr unsigned search_reads = 32;
 
 inline CO_CAN_FDCAN& controller(void* ctx) { return *static_cast<CO_CAN_FDCAN*>(ctx); }
 
-inline std::uint32_t read(const volatile std::uint32_t& reg) { return lexican_reg_read(&reg); }
-inline void write(volatile std::uint32_t& reg, std::uint32_t value) { lexican_reg_write(&reg, value); }
+using registers::read;
+using registers::write;
 
 // Waits until bits of a register have a value. Returns false if they do not get it.
 inline bool await_bits(const volatile std::uint32_t& reg, std::uint32_t bits, std::uint32_t value) {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "../report.hpp"
+#include "../controller.hpp"
 #include "../transmit.hpp"
 #include "flexcan_controller.hpp"
 #include "flexcan_filters.hpp"

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "../registers.h"
+#include "../controller.hpp"
 #include "../transmit.hpp"
 #include "co_can_flexcan.h"
 #include "flexcan_filters.hpp"
@@ -14,8 +14,8 @@
 namespace co::flexcan {
 /// \cond internal
 
-inline std::uint32_t read(const volatile std::uint32_t& reg) { return lexican_reg_read(&reg); }
-inline void write(volatile std::uint32_t& reg, std::uint32_t value) { lexican_reg_write(&reg, value); }
+using registers::read;
+using registers::write;
 
 /// Use of the message buffers. Those of the FIFO come first. The first other one is reserved (erratum 5829); those that
 /// receive follow, then three for transmission.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Transmission through three message buffers, and reception.
-#include "../report.hpp"
+#include "../controller.hpp"
 #include "flexcan_controller.hpp"
 
 namespace co::flexcan {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "../report.hpp"
+#include "../controller.hpp"
 #include "../transmit.hpp"
 #include "mcp2515_controller.hpp"
 

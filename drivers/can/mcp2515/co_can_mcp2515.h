@@ -48,8 +48,7 @@
 #ifndef CO_CAN_MCP2515_H_
 #define CO_CAN_MCP2515_H_
 
-#include "../co_can_report.h"
-#include "../co_can_transmit.h"
+#include "../co_can_controller.h"
 #include "co_if_can.h"
 #include "co_ring.h"
 #include "mcp2515_registers.h"

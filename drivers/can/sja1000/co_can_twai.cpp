@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "co_can_twai.h"
 
-#include "../registers.h"
+#include "../controller.hpp"
 #include "sja1000.hpp"
 
 namespace co::sja1000 {
@@ -18,10 +18,10 @@ struct Twai {
   static constexpr std::uint32_t safe_frames = 62;  // of the 64 that make the FIFO fail
 
   static std::uint32_t read(const Context& can, std::uint8_t address) {
-    return lexican_reg_read(&can.Registers[address]);
+    return registers::read(can.Registers[address]);
   }
   static void write(const Context& can, std::uint8_t address, std::uint32_t value) {
-    lexican_reg_write(&can.Registers[address], value);
+    registers::write(can.Registers[address], value);
   }
 
   static void select_pelican(const Context& can) {

@@ -4,8 +4,7 @@
 #ifndef CO_SJA1000_STATE_H_
 #define CO_SJA1000_STATE_H_
 
-#include "../co_can_report.h"
-#include "../co_can_transmit.h"
+#include "../co_can_controller.h"
 #include "co_if_can.h"
 #include "co_ring.h"
 

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "../report.hpp"
+#include "../controller.hpp"
 #include "../transmit.hpp"
 #include "co_sja1000_state.h"
 #include "sja1000_filters.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file co_can_report.h
-/// States and events of a CAN controller that its driver has reported to the node. Part of the contexts of
-/// drivers/can/bxcan, fdcan, flexcan, mcp2515 and sja1000; report.hpp has the functions.
-#ifndef CO_CAN_REPORT_H_
-#define CO_CAN_REPORT_H_
+/// \file co_can_controller.h
+/// Types that the contexts of the drivers for CAN controllers have in common: drivers/can/bxcan, fdcan, flexcan,
+/// mcp2515 and sja1000. controller.hpp and transmit.hpp have the functions.
+#ifndef CO_CAN_CONTROLLER_H_
+#define CO_CAN_CONTROLLER_H_
 
 #include "co_if_can.h"
 
@@ -34,6 +34,18 @@ typedef struct CO_CAN_REPORT_T {
   uint8_t SeenBusOffs;    // value of BusOffs at the last observation
   uint8_t Reported;       // last reported state: co::report::State
 } CO_CAN_REPORT;
+
+#define CO_CAN_MAILBOXES 3
+#define CO_CAN_DISPLACED 4
+
+typedef struct CO_CAN_TRANSMIT_T {
+  CO_IF_FRM Frame[CO_CAN_MAILBOXES];      // copies of the frames in the mailboxes
+  CO_IF_FRM Displaced[CO_CAN_DISPLACED];  // frames that were taken from a mailbox for a frame of higher priority
+  uint8_t DisplacedNum;
+  uint8_t Used;      // bit n: mailbox n has a frame, or its result was not read yet
+  uint8_t Dropped;   // bit n: the frame in mailbox n is discarded unless it is on the wire
+  uint8_t Aborting;  // bit n: an abort of mailbox n was requested, to displace its frame
+} CO_CAN_TRANSMIT;
 /// \endcond
 
 #ifdef __cplusplus

@@ -1,15 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file report.hpp
-/// Reports states of a CAN controller and lost frames to the node, as error frames that Read returns, in the coding of
-/// SocketCAN. The tables of the drivers contain CONodeCanReport(), which calls CONodeCanEvent() for each of their
-/// events.
-#ifndef CO_DRIVERS_REPORT_HPP_
-#define CO_DRIVERS_REPORT_HPP_
+/// \file controller.hpp
+/// Functions that the drivers for CAN controllers have in common.
+///
+/// With LEXICAN_REGISTER_MODEL defined (by a test, for the driver's source and for the test), read() and write() call a
+/// model of the controller. Addresses are passed as the driver computes them, so the registers need not be memory.
+///
+/// Namespace report reports states of a CAN controller and lost frames to the node, as error frames that Read returns,
+/// in the coding of SocketCAN. The tables of the drivers contain CONodeCanReport(), which calls CONodeCanEvent() for
+/// each of their events.
+#ifndef CO_DRIVERS_CONTROLLER_HPP_
+#define CO_DRIVERS_CONTROLLER_HPP_
 
 #include <cstdint>
 
 #include "atomic.hpp"
-#include "co_can_report.h"
+#include "co_can_controller.h"
+
+#ifdef LEXICAN_REGISTER_MODEL
+/// Returns the value of a register. Defined by the test.
+extern "C" std::uint32_t lexican_model_read(std::uintptr_t address);
+/// Writes a register. Defined by the test.
+extern "C" void lexican_model_write(std::uintptr_t address, std::uint32_t value);
+#endif
+
+namespace co::registers {
+/// \cond internal
+
+/// Returns the value of a register or of a word of message memory: one load.
+inline std::uint32_t read(const volatile std::uint32_t& reg) {
+#ifdef LEXICAN_REGISTER_MODEL
+  return lexican_model_read(reinterpret_cast<std::uintptr_t>(&reg));
+#else
+  return reg;
+#endif
+}
+
+/// Writes a register or a word of message memory: one store.
+inline void write(volatile std::uint32_t& reg, std::uint32_t value) {
+#ifdef LEXICAN_REGISTER_MODEL
+  lexican_model_write(reinterpret_cast<std::uintptr_t>(&reg), value);
+#else
+  reg = value;
+#endif
+}
+
+/// \endcond
+}  // namespace co::registers
 
 namespace co::report {
 /// \cond internal
