@@ -15,6 +15,8 @@
 
 #include "atomic.hpp"
 #include "co_can_controller.h"
+#include "co_ring.h"
+#include "transmit.hpp"
 
 #ifdef LEXICAN_REGISTER_MODEL
 /// Returns the value of a register. Defined by the test.
@@ -96,39 +98,167 @@ inline State observed(CO_CAN_REPORT& report, State now) {
   return was_bus_off && !is_reported ? State::bus_off : now;
 }
 
-/// Fills an error frame with the changes since the last report. Returns false if there are none.
-inline bool take(CO_CAN_REPORT& report, const Observation& now, CO_IF_FRM& frame) {
+/// Fills an error frame with the changes since the last report. Returns false if there are none; the function errors,
+/// which returns the error counters, is not called then.
+template <typename Errors>
+bool take(CO_CAN_REPORT& report, State state, std::uint32_t lost, Errors errors, CO_IF_FRM& frame) {
   const State before = static_cast<State>(report.Reported);
-  if (now.state == before && now.lost == report.ReportedLost) {
+  if (state == before && lost == report.ReportedLost) {
     return false;
   }
-  frame = {CO_IF_FRM_ERROR | class_counters, {}, sizeof frame.Data};
-  frame.Data[6] = now.errors.Transmit;
-  frame.Data[7] = now.errors.Receive;
-  if (now.state != before && now.state == State::bus_off) {
-    frame.Identifier |= class_bus_off;
+  const CO_CAN_ERROR_COUNTERS counters = errors();
+  std::uint32_t classes = CO_IF_FRM_ERROR | class_counters;
+  unsigned detail = 0;
+  if (state != before && state == State::bus_off) {
+    classes |= class_bus_off;
   }
-  if (now.state != before && before == State::bus_off) {
-    frame.Identifier |= class_restarted;
+  if (state != before && before == State::bus_off) {
+    classes |= class_restarted;
   }
-  if (now.state == State::passive && before != State::passive) {
-    frame.Identifier |= class_controller;
-    frame.Data[1] = detail_passive;
+  if (state == State::passive && before != State::passive) {
+    detail = detail_passive;
   }
-  if (now.state == State::active && before == State::passive) {
-    frame.Identifier |= class_controller;
-    frame.Data[1] = detail_active;
+  if (state == State::active && before == State::passive) {
+    detail = detail_active;
   }
-  if (now.lost != report.ReportedLost) {
-    frame.Identifier |= class_controller;
-    frame.Data[1] = static_cast<std::uint8_t>(frame.Data[1] | detail_overflow);
+  if (lost != report.ReportedLost) {
+    detail |= detail_overflow;
   }
-  report.Reported = static_cast<std::uint8_t>(now.state);
-  report.ReportedLost = now.lost;
+  frame = {detail != 0 ? classes | class_controller : classes,
+           {0, static_cast<std::uint8_t>(detail), 0, 0, 0, 0, counters.Transmit, counters.Receive},
+           sizeof frame.Data};
+  report.Reported = static_cast<std::uint8_t>(state);
+  report.ReportedLost = lost;
   return true;
+}
+
+/// Likewise, with error counters that were read before.
+inline bool take(CO_CAN_REPORT& report, const Observation& now, CO_IF_FRM& frame) {
+  return take(
+      report, now.state, now.lost, [&now] { return now.errors; }, frame);
 }
 
 /// \endcond
 }  // namespace co::report
+
+namespace co::controller {
+/// \cond internal
+
+/// accept() and discard() of ports that can disable interrupts; base class of the port. Port has the members of
+/// Driver's parameter, and Mailboxes, the class for transmit.hpp, whose constructor has the parameter Can&.
+template <typename Port, typename Can>
+struct MailboxPort {
+  // Discards received frames and counters. Called while the interrupts are disabled.
+  static void discard_received(Can& can) {
+    static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
+    Port::receive(can);
+    static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
+    report::restart(can.Report);
+  }
+
+  static bool accept(Can& can, const CO_IF_FRM& frame) {
+    typename Port::Mailboxes mailboxes(can);
+    Port::enable_receive_interrupts(can);
+    const bool is_accepted = transmit::accept(can.Transmit, mailboxes, frame);
+    Port::enable_interrupts(can);
+    return is_accepted;
+  }
+
+  static void discard(Can& can) {
+    Port::disable_interrupts(can);
+    typename Port::Mailboxes mailboxes(can);
+    transmit::drop(can.Transmit, mailboxes);
+    Port::discard_received(can);
+    Port::enable_interrupts(can);
+  }
+};
+
+/// The functions of a driver. Port is a class with these static members:
+///
+///     using Can = CO_CAN_BXCAN;                             // the context
+///     void init(Can& can);                                  // all registers; off the bus, filters pass all frames
+///     void leave_bus(Can& can);                             // after the frame on the wire; sets Rate to null
+///     void join_bus(Can& can, const CO_CAN_BXCAN_RATE& rate);  // sets Rate; leaves the bus before, and ends bus-off
+///     bool is_bus_off(const Can& can);
+///     report::State poll(Can& can);                         // work of the loop, called by Read; returns the state
+///     CO_CAN_ERROR_COUNTERS errors(const Can& can);
+///     void receive(Can& can);                               // moves received frames into the queue
+///     bool accept(Can& can, const CO_IF_FRM& frame);        // requests the frame, or refuses it
+///     void discard(Can& can);                               // on the bus: discards all frames and counters
+///     void filter(Can& can, const std::uint32_t* ids, unsigned num);
+template <typename Port>
+class Driver {
+  using Can = typename Port::Can;
+
+  static Can& controller(void* ctx) { return *static_cast<Can*>(ctx); }
+
+  static auto find_rate(const Can& can, std::uint32_t baud) -> decltype(can.Rates) {
+    for (auto rate = can.Rates; rate != can.Rates + can.RateNum; ++rate) {
+      if (rate->Baud == baud) {
+        return rate;
+      }
+    }
+    return nullptr;
+  }
+
+  // Fills an error frame with the changes since the last report. Returns false if there are none.
+  static bool report_events(Can& can, CO_IF_FRM& frame) {
+    const report::State state = report::observed(can.Report, Port::poll(can));
+    return report::take(
+        can.Report, state, lost(&can), [&can] { return Port::errors(can); }, frame);
+  }
+
+  static void init(void* ctx) { Port::init(controller(ctx)); }
+
+  static void enable(void* ctx, std::uint32_t baud) {
+    Can& can = controller(ctx);
+    const auto* const rate = find_rate(can, baud);
+    can.Report.Reported = static_cast<std::uint8_t>(report::State::active);
+    rate == nullptr ? Port::leave_bus(can) : Port::join_bus(can, *rate);
+  }
+
+  static std::int16_t read(void* ctx, CO_IF_FRM* frm) {
+    Can& can = controller(ctx);
+    const bool is_read = can.Rate != nullptr && (report_events(can, *frm) || CORingGet(&can.Received, frm));
+    return is_read ? std::int16_t{sizeof(CO_IF_FRM)} : std::int16_t{0};
+  }
+
+  static std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
+    Can& can = controller(ctx);
+    if (can.Rate == nullptr || Port::is_bus_off(can)) {
+      return -1;
+    }
+    return Port::accept(can, *frm) ? std::int16_t{sizeof(CO_IF_FRM)} : std::int16_t{0};
+  }
+
+  static void reset(void* ctx) {
+    Can& can = controller(ctx);
+    if (can.Rate != nullptr) {
+      Port::is_bus_off(can) ? Port::join_bus(can, *can.Rate) : Port::discard(can);
+    }
+  }
+
+  static void close(void* ctx) { Port::leave_bus(controller(ctx)); }
+
+  static void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
+    Port::filter(controller(ctx), ids, num);
+  }
+
+ public:
+  static constexpr CO_IF_CAN_DRV_EX table = {init, enable, read, send, reset, close, filter, CONodeCanReport};
+
+  static bool has_frames(const Can* can) { return can != nullptr && CORingCount(&can->Received) != 0; }
+
+  static std::uint32_t lost(const Can* can) {
+    return can == nullptr ? 0 : report::load(can->Report.Overflows) + CORingLost(&can->Received);
+  }
+
+  static CO_CAN_ERROR_COUNTERS errors(const Can* can) {
+    return can == nullptr ? CO_CAN_ERROR_COUNTERS{} : Port::errors(*can);
+  }
+};
+
+/// \endcond
+}  // namespace co::controller
 
 #endif

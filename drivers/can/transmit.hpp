@@ -50,8 +50,13 @@ inline bool is_extended(std::uint32_t identifier) {
   return (identifier & CO_IF_FRM_EXT) != 0 || (identifier & CO_IF_FRM_ID) > base_ids;
 }
 
+/// Returns the length in bytes, 0…8, for a DLC, which may be larger.
+inline std::uint8_t length_of(std::uint32_t dlc) {
+  return dlc < bytes_at_most ? static_cast<std::uint8_t>(dlc) : bytes_at_most;
+}
+
 /// Returns the length of a frame in bytes, 0…8.
-inline std::uint8_t length_of(const CO_IF_FRM& frame) { return frame.DLC < bytes_at_most ? frame.DLC : bytes_at_most; }
+inline std::uint8_t length_of(const CO_IF_FRM& frame) { return length_of(frame.DLC); }
 
 /// Returns four bytes of data as a word; the first byte is in the lowest bits.
 inline std::uint32_t word_at(const std::uint8_t* bytes) {

@@ -12,8 +12,6 @@ namespace {
 
 using report::State;
 
-constexpr std::int16_t one_frame = sizeof(CO_IF_FRM);
-
 // Interrupts that are always enabled on the bus. TMEIE is disabled while the loop uses the mailboxes.
 constexpr std::uint32_t always_enabled =
     CO_BXCAN_IER_FMPIE0 | CO_BXCAN_IER_FOVIE0 | CO_BXCAN_IER_EPVIE | CO_BXCAN_IER_BOFIE | CO_BXCAN_IER_ERRIE;
@@ -22,8 +20,6 @@ constexpr std::uint32_t enabled_on_bus = always_enabled | CO_BXCAN_IER_TMEIE;
 // Limits of loops. The frame on the bus has to end before the initialisation mode is entered; about 3 ms at 72 MHz.
 constexpr unsigned status_reads = 20000;
 constexpr unsigned fifo_reads = 32;
-
-CO_CAN_BXCAN& controller(void* ctx) { return *static_cast<CO_CAN_BXCAN*>(ctx); }
 
 using registers::read;
 using registers::write;
@@ -109,40 +105,10 @@ std::uint32_t identifier_of(std::uint32_t word) {
 CO_IF_FRM read_frame(const CO_BXCAN_MAILBOX& mailbox) {
   CO_IF_FRM frame{};
   frame.Identifier = identifier_of(read(mailbox.Identifier));
-  const std::uint32_t dlc = read(mailbox.Length) & CO_BXCAN_DTR_DLC;
-  frame.DLC = dlc < transmit::bytes_at_most ? static_cast<std::uint8_t>(dlc) : transmit::bytes_at_most;
+  frame.DLC = transmit::length_of(read(mailbox.Length) & CO_BXCAN_DTR_DLC);
   transmit::unpack(read(mailbox.DataLow), frame.Data);
   transmit::unpack(read(mailbox.DataHigh), frame.Data + 4);
   return frame;
-}
-
-// Moves all frames of FIFO 0 into the queue. The controller takes a few clock periods to release a frame.
-void receive(CO_CAN_BXCAN& can) {
-  CO_BXCAN_REGISTERS& regs = *can.Registers;
-  for (unsigned n = 0; n < fifo_reads; ++n) {
-    const std::uint32_t status = read(regs.Rf0r);
-    if ((status & CO_BXCAN_RFR_FOVR) != 0) {
-      write(regs.Rf0r, CO_BXCAN_RFR_FOVR);
-      report::count_overflow(can.Report);
-    }
-    if ((status & CO_BXCAN_RFR_RFOM) != 0) {
-      continue;
-    }
-    if ((status & CO_BXCAN_RFR_FMP) == 0) {
-      return;
-    }
-    const CO_IF_FRM frame = read_frame(regs.Receive[0]);
-    write(regs.Rf0r, CO_BXCAN_RFR_RFOM);
-    static_cast<void>(CORingPut(&can.Received, &frame));
-  }
-}
-
-// Discards received frames and counters. The interrupts must be disabled.
-void discard_received(CO_CAN_BXCAN& can) {
-  static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
-  receive(can);
-  static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
-  report::restart(can.Report);
 }
 
 // Filters -------------------------------------------------------------------------------------------------------------
@@ -225,21 +191,6 @@ void set_filters(const CO_CAN_BXCAN& can, const Filters& all) {
 
 // Joining and leaving the bus -----------------------------------------------------------------------------------------
 
-const CO_CAN_BXCAN_RATE* find_rate(const CO_CAN_BXCAN& can, std::uint32_t baud) {
-  for (unsigned n = 0; n < can.RateNum; ++n) {
-    if (can.Rates[n].Baud == baud) {
-      return &can.Rates[n];
-    }
-  }
-  return nullptr;
-}
-
-// Disables the interrupts. The read-back ensures that the write has reached the controller, so none follows.
-void disable_interrupts(const CO_CAN_BXCAN& can) {
-  write(can.Registers->Ier, 0);
-  static_cast<void>(read(can.Registers->Ier));
-}
-
 // Enters the initialisation mode. Returns false if the controller does not.
 bool request_initialisation(CO_BXCAN_REGISTERS& regs) {
   write(regs.Mcr, CO_BXCAN_MCR_INRQ | CO_BXCAN_MCR_FREEZE);
@@ -250,34 +201,6 @@ bool request_initialisation(CO_BXCAN_REGISTERS& regs) {
   return left != 0;
 }
 
-// Goes off the bus after the frame on the bus. A reset of the controller takes it off a bus whose frame does not end in
-// time.
-void leave_bus(CO_CAN_BXCAN& can) {
-  CO_BXCAN_REGISTERS& regs = *can.Registers;
-  disable_interrupts(can);
-  can.Rate = nullptr;
-  Mailboxes mailboxes(can);
-  mailboxes.abort(transmit::all_mailboxes);
-  if (!request_initialisation(regs)) {
-    write(regs.Mcr, CO_BXCAN_MCR_RESET);
-    static_cast<void>(request_initialisation(regs));
-  }
-  static_cast<void>(mailboxes.take_completed(transmit::all_mailboxes));
-  transmit::forget(can.Transmit);
-}
-
-void join_bus(CO_CAN_BXCAN& can, const CO_CAN_BXCAN_RATE& rate) {
-  CO_BXCAN_REGISTERS& regs = *can.Registers;
-  leave_bus(can);
-  discard_received(can);
-  write(regs.Btr, rate.Timing | (can.Loopback ? CO_BXCAN_BTR_LBKM | CO_BXCAN_BTR_SILM : 0));
-  can.Rate = &rate;
-  write(regs.Msr, CO_BXCAN_MSR_ERRI);
-  write(regs.Ier, enabled_on_bus);
-  write(regs.Mcr,
-        CO_BXCAN_MCR_FREEZE | CO_BXCAN_MCR_RFLM | (can.Recovery == CO_CAN_RECOVERY_AUTOMATIC ? CO_BXCAN_MCR_ABOM : 0));
-}
-
 State state_of(std::uint32_t status) {
   if ((status & CO_BXCAN_ESR_BOFF) != 0) {
     return State::bus_off;
@@ -285,81 +208,91 @@ State state_of(std::uint32_t status) {
   return (status & CO_BXCAN_ESR_EPVF) != 0 ? State::passive : State::active;
 }
 
-CO_CAN_ERROR_COUNTERS counters_of(std::uint32_t status) { return {CO_BXCAN_ESR_TEC(status), CO_BXCAN_ESR_REC(status)}; }
+struct Port : controller::MailboxPort<Port, CO_CAN_BXCAN> {
+  using Can = CO_CAN_BXCAN;
+  using Mailboxes = bxcan::Mailboxes;
 
-// Fills an error frame with the changes since the last report. Returns false if there are none.
-bool report_events(CO_CAN_BXCAN& can, CO_IF_FRM& frame) {
-  const std::uint32_t status = read(can.Registers->Esr);
-  const State state = report::observed(can.Report, state_of(status));
-  return report::take(can.Report, {state, counters_of(status), COCanBxcanLost(&can)}, frame);
-}
+  // The read-back ensures that the write has reached the controller, so no interrupt follows.
+  static void disable_interrupts(const Can& can) {
+    write(can.Registers->Ier, 0);
+    static_cast<void>(read(can.Registers->Ier));
+  }
+  static void enable_receive_interrupts(const Can& can) { write(can.Registers->Ier, always_enabled); }
+  static void enable_interrupts(const Can& can) { write(can.Registers->Ier, enabled_on_bus); }
 
-// The driver ----------------------------------------------------------------------------------------------------------
+  static bool is_bus_off(const Can& can) { return (read(can.Registers->Esr) & CO_BXCAN_ESR_BOFF) != 0; }
+  static State poll(const Can& can) { return state_of(read(can.Registers->Esr)); }
+  static CO_CAN_ERROR_COUNTERS errors(const Can& can) {
+    const std::uint32_t status = read(can.Registers->Esr);
+    return {CO_BXCAN_ESR_TEC(status), CO_BXCAN_ESR_REC(status)};
+  }
 
-void init(void* ctx) {
-  CO_CAN_BXCAN& can = controller(ctx);
-  leave_bus(can);
-  open_filters(can);
-  discard_received(can);
-}
+  // Empties FIFO 0. The controller takes a few clock periods to release a frame.
+  static void receive(Can& can) {
+    CO_BXCAN_REGISTERS& regs = *can.Registers;
+    for (unsigned n = 0; n < fifo_reads; ++n) {
+      const std::uint32_t status = read(regs.Rf0r);
+      if ((status & CO_BXCAN_RFR_FOVR) != 0) {
+        write(regs.Rf0r, CO_BXCAN_RFR_FOVR);
+        report::count_overflow(can.Report);
+      }
+      if ((status & CO_BXCAN_RFR_RFOM) != 0) {
+        continue;
+      }
+      if ((status & CO_BXCAN_RFR_FMP) == 0) {
+        return;
+      }
+      const CO_IF_FRM frame = read_frame(regs.Receive[0]);
+      write(regs.Rf0r, CO_BXCAN_RFR_RFOM);
+      static_cast<void>(CORingPut(&can.Received, &frame));
+    }
+  }
 
-void enable(void* ctx, std::uint32_t baud) {
-  CO_CAN_BXCAN& can = controller(ctx);
-  const CO_CAN_BXCAN_RATE* const rate = find_rate(can, baud);
-  can.Report.Reported = static_cast<std::uint8_t>(State::active);
-  if (rate == nullptr) {
+  // Refuses frames while the controller waits for 11 recessive bits.
+  static bool accept(Can& can, const CO_IF_FRM& frame) {
+    return (read(can.Registers->Msr) & CO_BXCAN_MSR_INAK) == 0 && MailboxPort::accept(can, frame);
+  }
+
+  // A reset of the controller takes it off a bus whose frame does not end in time.
+  static void leave_bus(Can& can) {
+    CO_BXCAN_REGISTERS& regs = *can.Registers;
+    disable_interrupts(can);
+    can.Rate = nullptr;
+    Mailboxes mailboxes(can);
+    mailboxes.abort(transmit::all_mailboxes);
+    if (!request_initialisation(regs)) {
+      write(regs.Mcr, CO_BXCAN_MCR_RESET);
+      static_cast<void>(request_initialisation(regs));
+    }
+    static_cast<void>(mailboxes.take_completed(transmit::all_mailboxes));
+    transmit::forget(can.Transmit);
+  }
+
+  static void join_bus(Can& can, const CO_CAN_BXCAN_RATE& rate) {
+    CO_BXCAN_REGISTERS& regs = *can.Registers;
     leave_bus(can);
-    return;
+    discard_received(can);
+    write(regs.Btr, rate.Timing | (can.Loopback ? CO_BXCAN_BTR_LBKM | CO_BXCAN_BTR_SILM : 0));
+    write(regs.Msr, CO_BXCAN_MSR_ERRI);
+    can.Rate = &rate;
+    enable_interrupts(can);
+    write(regs.Mcr, CO_BXCAN_MCR_FREEZE | CO_BXCAN_MCR_RFLM |
+                        (can.Recovery == CO_CAN_RECOVERY_AUTOMATIC ? CO_BXCAN_MCR_ABOM : 0));
   }
-  join_bus(can, *rate);
-}
 
-std::int16_t read_driver(void* ctx, CO_IF_FRM* frm) {
-  CO_CAN_BXCAN& can = controller(ctx);
-  if (can.Rate == nullptr) {
-    return 0;
+  static void init(Can& can) {
+    leave_bus(can);
+    open_filters(can);
+    discard_received(can);
   }
-  return report_events(can, *frm) || CORingGet(&can.Received, frm) ? one_frame : std::int16_t{0};
-}
 
-std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
-  CO_CAN_BXCAN& can = controller(ctx);
-  if (can.Rate == nullptr || (read(can.Registers->Esr) & CO_BXCAN_ESR_BOFF) != 0) {
-    return -1;
+  static void filter(const Can& can, const std::uint32_t* ids, unsigned num) {
+    constexpr unsigned filters_in_bank = 2;
+    set_filters(can, filters_of(ids, num, filters_in_bank * (can.BankNum - 1U)));
   }
-  if ((read(can.Registers->Msr) & CO_BXCAN_MSR_INAK) != 0) {
-    return 0;  // waits for 11 recessive bits
-  }
-  Mailboxes mailboxes(can);
-  write(can.Registers->Ier, always_enabled);
-  const bool accepted = transmit::accept(can.Transmit, mailboxes, *frm);
-  write(can.Registers->Ier, enabled_on_bus);
-  return accepted ? one_frame : std::int16_t{0};
-}
+};
 
-void reset(void* ctx) {
-  CO_CAN_BXCAN& can = controller(ctx);
-  if (can.Rate == nullptr) {
-    return;
-  }
-  if ((read(can.Registers->Esr) & CO_BXCAN_ESR_BOFF) != 0) {
-    join_bus(can, *can.Rate);
-    return;
-  }
-  disable_interrupts(can);
-  Mailboxes mailboxes(can);
-  transmit::drop(can.Transmit, mailboxes);
-  discard_received(can);
-  write(can.Registers->Ier, enabled_on_bus);
-}
-
-void close(void* ctx) { leave_bus(controller(ctx)); }
-
-void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
-  const CO_CAN_BXCAN& can = controller(ctx);
-  constexpr unsigned filters_in_bank = 2;
-  set_filters(can, filters_of(ids, num, filters_in_bank * (can.BankNum - 1U)));
-}
+using Driver = controller::Driver<Port>;
 
 }  // namespace
 }  // namespace co::bxcan
@@ -367,7 +300,7 @@ void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
 using namespace co;
 using namespace co::bxcan;
 
-const CO_IF_CAN_DRV_EX BxcanCanDriver = {init, enable, read_driver, send, reset, close, filter, CONodeCanReport};
+const CO_IF_CAN_DRV_EX BxcanCanDriver = bxcan::Driver::table;
 
 extern "C" {
 
@@ -377,7 +310,7 @@ void COCanBxcanInterrupt(CO_CAN_BXCAN* can) {
     return;
   }
   CO_BXCAN_REGISTERS& regs = *can->Registers;
-  receive(*can);
+  Port::receive(*can);
   if ((read(regs.Msr) & CO_BXCAN_MSR_ERRI) != 0) {
     write(regs.Msr, CO_BXCAN_MSR_ERRI);
     if ((read(regs.Esr) & CO_BXCAN_ESR_BOFF) != 0) {
@@ -390,14 +323,8 @@ void COCanBxcanInterrupt(CO_CAN_BXCAN* can) {
   }
 }
 
-bool COCanBxcanHasFrames(const CO_CAN_BXCAN* can) { return can != nullptr && CORingCount(&can->Received) != 0; }
-
-uint32_t COCanBxcanLost(const CO_CAN_BXCAN* can) {
-  return can == nullptr ? 0 : report::load(can->Report.Overflows) + CORingLost(&can->Received);
-}
-
-CO_CAN_ERROR_COUNTERS COCanBxcanErrors(const CO_CAN_BXCAN* can) {
-  return can == nullptr ? CO_CAN_ERROR_COUNTERS{} : counters_of(read(can->Registers->Esr));
-}
+bool COCanBxcanHasFrames(const CO_CAN_BXCAN* can) { return bxcan::Driver::has_frames(can); }
+uint32_t COCanBxcanLost(const CO_CAN_BXCAN* can) { return bxcan::Driver::lost(can); }
+CO_CAN_ERROR_COUNTERS COCanBxcanErrors(const CO_CAN_BXCAN* can) { return bxcan::Driver::errors(can); }
 
 }  // extern "C"
