@@ -33,40 +33,28 @@ struct Fixed {
 static_assert(standard_filters + 2 * extended_filters == CO_FDCAN_RAM_RECEIVE);
 static_assert(CO_FDCAN_RAM_TRANSMIT + CO_CAN_MAILBOXES * CO_FDCAN_ELEMENT_WORDS == CO_FDCAN_RAM_WORDS);
 
-using FixedDriver = Driver<Fixed>;
+using Driver = controller::Driver<Port<Fixed>>;
 
 }  // namespace
 }  // namespace co::fdcan
 
 using namespace co;
-using namespace co::fdcan;
 
-const CO_IF_CAN_DRV_EX FdcanCanDriver = {FixedDriver::init,   FixedDriver::enable, FixedDriver::read_driver,
-                                         FixedDriver::send,   FixedDriver::reset,  FixedDriver::close,
-                                         FixedDriver::filter, CONodeCanReport};
+const CO_IF_CAN_DRV_EX FdcanCanDriver = fdcan::Driver::table;
 
 extern "C" {
 
 void COCanFdcanInterrupt(CO_CAN_FDCAN* can) {
   ASSERT_PTR(can);
-  FixedDriver::interrupt(*can);
+  fdcan::Port<fdcan::Fixed>::interrupt(*can);
 }
 
-bool COCanFdcanHasFrames(const CO_CAN_FDCAN* can) { return can != nullptr && CORingCount(&can->Received) != 0; }
-
-uint32_t COCanFdcanLost(const CO_CAN_FDCAN* can) {
-  return can == nullptr ? 0 : report::load(can->Report.Overflows) + CORingLost(&can->Received);
-}
+bool COCanFdcanHasFrames(const CO_CAN_FDCAN* can) { return fdcan::Driver::has_frames(can); }
+uint32_t COCanFdcanLost(const CO_CAN_FDCAN* can) { return fdcan::Driver::lost(can); }
 
 CO_CAN_ERROR_COUNTERS COCanFdcanErrors(const CO_CAN_FDCAN* can) {
-  if (can == nullptr) {
-    return {};
-  }
   static_assert(offsetof(CO_FDCAN_REGISTERS, Ecr) == offsetof(CO_MCAN_REGISTERS, Ecr));
-  const std::uint32_t errors = read(static_cast<const CO_FDCAN_REGISTERS*>(can->Registers)->Ecr);
-  constexpr std::uint8_t passive = 128;
-  const std::uint8_t received = (errors & CO_FDCAN_ECR_RP) != 0 ? passive : CO_FDCAN_ECR_REC(errors);
-  return {CO_FDCAN_ECR_TEC(errors), received};
+  return fdcan::Driver::errors(can);
 }
 
 }  // extern "C"

@@ -45,18 +45,14 @@ struct Configurable {
   }
 };
 
-using ConfigurableDriver = Driver<Configurable>;
-
 }  // namespace
 }  // namespace co::fdcan
 
-using namespace co::fdcan;
+using namespace co;
 
-const CO_IF_CAN_DRV_EX McanCanDriver = {
-    ConfigurableDriver::init,  ConfigurableDriver::enable, ConfigurableDriver::read_driver, ConfigurableDriver::send,
-    ConfigurableDriver::reset, ConfigurableDriver::close,  ConfigurableDriver::filter,      CONodeCanReport};
+const CO_IF_CAN_DRV_EX McanCanDriver = controller::Driver<fdcan::Port<fdcan::Configurable>>::table;
 
 extern "C" void COCanMcanInterrupt(CO_CAN_FDCAN* can) {
   ASSERT_PTR(can);
-  ConfigurableDriver::interrupt(*can);
+  fdcan::Port<fdcan::Configurable>::interrupt(*can);
 }

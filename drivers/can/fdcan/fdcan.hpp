@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file fdcan.hpp
-/// The driver for M_CAN, for each variant of its registers. Variant is a class with the register structure, the
-/// interrupt bits and the layout of the message memory: see co_can_fdcan.cpp, co_can_mcan.cpp.
+/// The port of controller::Driver for M_CAN, for each variant of its registers. Variant is a class with the register
+/// structure, the interrupt bits and the layout of the message memory: see co_can_fdcan.cpp, co_can_mcan.cpp.
 #ifndef CO_DRIVERS_FDCAN_HPP_
 #define CO_DRIVERS_FDCAN_HPP_
 
@@ -15,16 +15,12 @@
 namespace co::fdcan {
 /// \cond internal
 
-inline constexpr std::int16_t one_frame = sizeof(CO_IF_FRM);
-
 // Limits of loops. The frame on the bus has to end before the controller goes off the bus; about 2 ms at 170 MHz.
 inline constexpr unsigned status_reads = 20000;
 inline constexpr unsigned fifo_reads = 64;
 
 // Reads of a register after new filters were written: longer than a search of the filters.
 inline constexpr unsigned search_reads = 32;
-
-inline CO_CAN_FDCAN& controller(void* ctx) { return *static_cast<CO_CAN_FDCAN*>(ctx); }
 
 using registers::read;
 using registers::write;
@@ -39,7 +35,8 @@ inline bool await_bits(const volatile std::uint32_t& reg, std::uint32_t bits, st
 }
 
 template <typename Variant>
-class Driver {
+class Port : public controller::MailboxPort<Port<Variant>, CO_CAN_FDCAN> {
+  using Base = controller::MailboxPort<Port, CO_CAN_FDCAN>;
   using Registers = typename Variant::Registers;
   using State = report::State;
 
@@ -127,33 +124,10 @@ class Driver {
     }
     CO_IF_FRM frame{};
     frame.Identifier = identifier_of(read(element[0]));
-    const std::uint32_t dlc = (control >> CO_FDCAN_ELEMENT_DLC_SHIFT) & CO_FDCAN_ELEMENT_DLC;
-    frame.DLC = dlc < transmit::bytes_at_most ? static_cast<std::uint8_t>(dlc) : transmit::bytes_at_most;
+    frame.DLC = transmit::length_of((control >> CO_FDCAN_ELEMENT_DLC_SHIFT) & CO_FDCAN_ELEMENT_DLC);
     transmit::unpack(read(element[2]), frame.Data);
     transmit::unpack(read(element[3]), frame.Data + 4);
     static_cast<void>(CORingPut(&can.Received, &frame));
-  }
-
-  static void receive(CO_CAN_FDCAN& can) {
-    Registers& regs = registers(can);
-    for (unsigned n = 0; n < fifo_reads; ++n) {
-      const std::uint32_t status = read(regs.Rxf0s);
-      if ((status & CO_FDCAN_RXF0S_LEVEL) == 0) {
-        return;
-      }
-      const std::uint32_t index = (status >> CO_FDCAN_RXF0S_GET_SHIFT) & CO_FDCAN_RXF0S_GET;
-      receive_element(can, memory(can) + CO_FDCAN_RAM_RECEIVE + index * Variant::element_words);
-      write(regs.Rxf0a, index);
-    }
-  }
-
-  // Discards received frames and counters. The interrupts must be disabled.
-  static void discard_received(CO_CAN_FDCAN& can) {
-    static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
-    receive(can);
-    write(registers(can).Ir, Variant::received | Variant::receive_lost);
-    static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
-    report::restart(can.Report);
   }
 
   // Filters -----------------------------------------------------------------------------------------------------------
@@ -198,26 +172,60 @@ class Driver {
     disable_extended(ram, extended_filters - 1);
   }
 
-  // Joining and leaving the bus ---------------------------------------------------------------------------------------
+ public:
+  using Can = CO_CAN_FDCAN;
+  using Mailboxes = Buffers;
 
-  static const CO_CAN_FDCAN_RATE* find_rate(const CO_CAN_FDCAN& can, std::uint32_t baud) {
-    for (unsigned n = 0; n < can.RateNum; ++n) {
-      if (can.Rates[n].Baud == baud) {
-        return &can.Rates[n];
-      }
-    }
-    return nullptr;
-  }
-
-  // Disables the interrupts. The read-back ensures that the write has reached the controller, so none follows.
-  static void disable_interrupts(const CO_CAN_FDCAN& can) {
+  // The read-back ensures that the write has reached the controller, so no interrupt follows.
+  static void disable_interrupts(const Can& can) {
     write(registers(can).Ie, 0);
     static_cast<void>(read(registers(can).Ie));
+  }
+  static void enable_receive_interrupts(const Can& can) { write(registers(can).Ie, always_enabled); }
+  static void enable_interrupts(const Can& can) { write(registers(can).Ie, enabled_on_bus); }
+
+  static bool is_bus_off(const Can& can) { return (read(registers(can).Psr) & CO_FDCAN_PSR_BO) != 0; }
+
+  static State poll(const Can& can) {
+    const std::uint32_t status = read(registers(can).Psr);
+    if ((status & CO_FDCAN_PSR_BO) != 0) {
+      return State::bus_off;
+    }
+    return (status & CO_FDCAN_PSR_EP) != 0 ? State::passive : State::active;
+  }
+
+  static CO_CAN_ERROR_COUNTERS errors(const Can& can) {
+    constexpr std::uint8_t passive = 128;
+    const std::uint32_t errors = read(registers(can).Ecr);
+    return {CO_FDCAN_ECR_TEC(errors), (errors & CO_FDCAN_ECR_RP) != 0 ? passive : CO_FDCAN_ECR_REC(errors)};
+  }
+
+  static void receive(Can& can) {
+    Registers& regs = registers(can);
+    for (unsigned n = 0; n < fifo_reads; ++n) {
+      const std::uint32_t status = read(regs.Rxf0s);
+      if ((status & CO_FDCAN_RXF0S_LEVEL) == 0) {
+        return;
+      }
+      const std::uint32_t index = (status >> CO_FDCAN_RXF0S_GET_SHIFT) & CO_FDCAN_RXF0S_GET;
+      receive_element(can, memory(can) + CO_FDCAN_RAM_RECEIVE + index * Variant::element_words);
+      write(regs.Rxf0a, index);
+    }
+  }
+
+  static void discard_received(Can& can) {
+    Base::discard_received(can);
+    write(registers(can).Ir, Variant::received | Variant::receive_lost);
+  }
+
+  // Refuses frames until the controller has left the initialisation.
+  static bool accept(Can& can, const CO_IF_FRM& frame) {
+    return (read(registers(can).Cccr) & CO_FDCAN_CCCR_INIT) == 0 && Base::accept(can, frame);
   }
 
   // Goes off the bus after the frame on the wire, and enables changes of the configuration. The mode bits of CCCR are
   // write-protected until both INIT and CCE are set, so they are written unchanged. [M_CAN, 2.3.7]
-  static void leave_bus(CO_CAN_FDCAN& can) {
+  static void leave_bus(Can& can) {
     Registers& regs = registers(can);
     disable_interrupts(can);
     can.Rate = nullptr;
@@ -231,7 +239,7 @@ class Driver {
     transmit::forget(can.Transmit);
   }
 
-  static void join_bus(CO_CAN_FDCAN& can, const CO_CAN_FDCAN_RATE& rate) {
+  static void join_bus(Can& can, const CO_CAN_FDCAN_RATE& rate) {
     Registers& regs = registers(can);
     const std::uint32_t mode =
         CO_FDCAN_CCCR_FDOE | (can.Loopback ? CO_FDCAN_CCCR_TEST | CO_FDCAN_CCCR_MON : std::uint32_t{0});
@@ -252,28 +260,11 @@ class Driver {
     write(regs.Ile, CO_FDCAN_ILE_LINE0);
     write(regs.Ir, enabled_on_bus);
     can.Rate = &rate;
-    write(regs.Ie, enabled_on_bus);
+    enable_interrupts(can);
     write(regs.Cccr, mode);
   }
 
-  static State state_of(std::uint32_t status) {
-    if ((status & CO_FDCAN_PSR_BO) != 0) {
-      return State::bus_off;
-    }
-    return (status & CO_FDCAN_PSR_EP) != 0 ? State::passive : State::active;
-  }
-
-  // Fills an error frame with the changes since the last report. Returns false if there are none.
-  static bool report_events(CO_CAN_FDCAN& can, CO_IF_FRM& frame) {
-    const State state = report::observed(can.Report, state_of(read(registers(can).Psr)));
-    return report::take(can.Report, {state, COCanFdcanErrors(&can), COCanFdcanLost(&can)}, frame);
-  }
-
- public:
-  // Functions of the driver -------------------------------------------------------------------------------------------
-
-  static void init(void* ctx) {
-    CO_CAN_FDCAN& can = controller(ctx);
+  static void init(Can& can) {
     leave_bus(can);
     volatile std::uint32_t* const ram = memory(can);
     for (unsigned n = 0; n < Variant::words(can); ++n) {
@@ -283,63 +274,9 @@ class Driver {
     discard_received(can);
   }
 
-  static void enable(void* ctx, std::uint32_t baud) {
-    CO_CAN_FDCAN& can = controller(ctx);
-    const CO_CAN_FDCAN_RATE* const rate = find_rate(can, baud);
-    can.Report.Reported = static_cast<std::uint8_t>(State::active);
-    if (rate == nullptr) {
-      leave_bus(can);
-      return;
-    }
-    join_bus(can, *rate);
-  }
+  static void filter(const Can& can, const std::uint32_t* ids, unsigned num) { set_filters(can, filters_of(ids, num)); }
 
-  static std::int16_t read_driver(void* ctx, CO_IF_FRM* frm) {
-    CO_CAN_FDCAN& can = controller(ctx);
-    if (can.Rate == nullptr) {
-      return 0;
-    }
-    return report_events(can, *frm) || CORingGet(&can.Received, frm) ? one_frame : std::int16_t{0};
-  }
-
-  static std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
-    CO_CAN_FDCAN& can = controller(ctx);
-    if (can.Rate == nullptr || (read(registers(can).Psr) & CO_FDCAN_PSR_BO) != 0) {
-      return -1;
-    }
-    if ((read(registers(can).Cccr) & CO_FDCAN_CCCR_INIT) != 0) {
-      return 0;  // the controller has not left the initialisation yet
-    }
-    Buffers buffers(can);
-    write(registers(can).Ie, always_enabled);
-    const bool accepted = transmit::accept(can.Transmit, buffers, *frm);
-    write(registers(can).Ie, enabled_on_bus);
-    return accepted ? one_frame : std::int16_t{0};
-  }
-
-  static void reset(void* ctx) {
-    CO_CAN_FDCAN& can = controller(ctx);
-    if (can.Rate == nullptr) {
-      return;
-    }
-    if ((read(registers(can).Psr) & CO_FDCAN_PSR_BO) != 0) {
-      join_bus(can, *can.Rate);
-      return;
-    }
-    disable_interrupts(can);
-    Buffers buffers(can);
-    transmit::drop(can.Transmit, buffers);
-    discard_received(can);
-    write(registers(can).Ie, enabled_on_bus);
-  }
-
-  static void close(void* ctx) { leave_bus(controller(ctx)); }
-
-  static void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
-    set_filters(controller(ctx), filters_of(ids, num));
-  }
-
-  static void interrupt(CO_CAN_FDCAN& can) {
+  static void interrupt(Can& can) {
     if (can.Rate == nullptr) {
       return;
     }
@@ -351,7 +288,7 @@ class Driver {
     if ((active & Variant::receive_lost) != 0) {
       report::count_overflow(can.Report);
     }
-    if ((active & Variant::bus_off) != 0 && (read(regs.Psr) & CO_FDCAN_PSR_BO) != 0) {
+    if ((active & Variant::bus_off) != 0 && is_bus_off(can)) {
       report::count_bus_off(can.Report);
       if (can.Recovery == CO_CAN_RECOVERY_AUTOMATIC) {
         write(regs.Cccr, read(regs.Cccr) & ~CO_FDCAN_CCCR_INIT);
