@@ -36,8 +36,7 @@ CO_IF_FRM read_frame(std::uint32_t control, const CO_FLEXCAN_MAILBOX& mailbox) {
   const std::uint32_t id = read(mailbox.Identifier) & CO_IF_FRM_ID;
   frame.Identifier = (control & CO_FLEXCAN_IDE) != 0 ? id | CO_IF_FRM_EXT : id >> CO_FLEXCAN_STID_SHIFT;
   frame.Identifier |= (control & CO_FLEXCAN_RTR) != 0 ? CO_IF_FRM_RTR : 0;
-  const std::uint32_t dlc = (control >> CO_FLEXCAN_DLC_SHIFT) & CO_FLEXCAN_DLC;
-  frame.DLC = dlc < transmit::bytes_at_most ? static_cast<std::uint8_t>(dlc) : transmit::bytes_at_most;
+  frame.DLC = transmit::length_of((control >> CO_FLEXCAN_DLC_SHIFT) & CO_FLEXCAN_DLC);
   transmit::unpack(swapped(read(mailbox.Data[0])), frame.Data);
   transmit::unpack(swapped(read(mailbox.Data[1])), frame.Data + 4);
   return frame;
