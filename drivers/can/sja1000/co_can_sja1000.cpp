@@ -41,7 +41,7 @@ struct Chip {
   static void reset_peripheral(const Context& /*can*/) {}
 };
 
-using ChipDriver = Driver<Chip>;
+using ChipDriver = controller::Driver<Port<Chip>>;
 
 std::uint8_t read_memory(void* ctx, std::uint8_t address) {
   const CO_SJA1000_MEMORY& memory = *static_cast<const CO_SJA1000_MEMORY*>(ctx);
@@ -56,29 +56,22 @@ void write_memory(void* ctx, std::uint8_t address, std::uint8_t value) {
 }  // namespace
 }  // namespace co::sja1000
 
+using namespace co;
 using namespace co::sja1000;
 
 const CO_SJA1000_ACCESS Sja1000Memory = {read_memory, write_memory};
 
-const CO_IF_CAN_DRV_EX Sja1000CanDriver = {ChipDriver::init,   ChipDriver::enable, ChipDriver::read_driver,
-                                           ChipDriver::send,   ChipDriver::reset,  ChipDriver::close,
-                                           ChipDriver::filter, CONodeCanReport};
+const CO_IF_CAN_DRV_EX Sja1000CanDriver = ChipDriver::table;
 
 extern "C" {
 
 void COCanSja1000Interrupt(CO_CAN_SJA1000* can) {
   ASSERT_PTR(can);
-  ChipDriver::interrupt(*can);
+  Port<Chip>::interrupt(*can);
 }
 
-bool COCanSja1000HasFrames(const CO_CAN_SJA1000* can) {
-  return can != nullptr && CORingCount(&can->State.Received) != 0;
-}
-
-uint32_t COCanSja1000Lost(const CO_CAN_SJA1000* can) { return can == nullptr ? 0 : ChipDriver::lost_frames(*can); }
-
-CO_CAN_ERROR_COUNTERS COCanSja1000Errors(const CO_CAN_SJA1000* can) {
-  return can == nullptr ? CO_CAN_ERROR_COUNTERS{} : ChipDriver::errors_of(*can);
-}
+bool COCanSja1000HasFrames(const CO_CAN_SJA1000* can) { return ChipDriver::has_frames(can); }
+uint32_t COCanSja1000Lost(const CO_CAN_SJA1000* can) { return ChipDriver::lost(can); }
+CO_CAN_ERROR_COUNTERS COCanSja1000Errors(const CO_CAN_SJA1000* can) { return ChipDriver::errors(can); }
 
 }  // extern "C"

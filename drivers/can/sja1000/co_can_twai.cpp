@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "co_can_twai.h"
 
-#include "../controller.hpp"
 #include "sja1000.hpp"
 
 namespace co::sja1000 {
@@ -76,30 +75,25 @@ struct Twai {
   }
 };
 
-using TwaiDriver = Driver<Twai>;
+using TwaiDriver = controller::Driver<Port<Twai>>;
 
 }  // namespace
 }  // namespace co::sja1000
 
+using namespace co;
 using namespace co::sja1000;
 
-const CO_IF_CAN_DRV_EX TwaiCanDriver = {TwaiDriver::init,   TwaiDriver::enable, TwaiDriver::read_driver,
-                                        TwaiDriver::send,   TwaiDriver::reset,  TwaiDriver::close,
-                                        TwaiDriver::filter, CONodeCanReport};
+const CO_IF_CAN_DRV_EX TwaiCanDriver = TwaiDriver::table;
 
 extern "C" {
 
 void COCanTwaiInterrupt(CO_CAN_TWAI* can) {
   ASSERT_PTR(can);
-  TwaiDriver::interrupt(*can);
+  Port<Twai>::interrupt(*can);
 }
 
-bool COCanTwaiHasFrames(const CO_CAN_TWAI* can) { return can != nullptr && CORingCount(&can->State.Received) != 0; }
-
-uint32_t COCanTwaiLost(const CO_CAN_TWAI* can) { return can == nullptr ? 0 : TwaiDriver::lost_frames(*can); }
-
-CO_CAN_ERROR_COUNTERS COCanTwaiErrors(const CO_CAN_TWAI* can) {
-  return can == nullptr ? CO_CAN_ERROR_COUNTERS{} : TwaiDriver::errors_of(*can);
-}
+bool COCanTwaiHasFrames(const CO_CAN_TWAI* can) { return TwaiDriver::has_frames(can); }
+uint32_t COCanTwaiLost(const CO_CAN_TWAI* can) { return TwaiDriver::lost(can); }
+CO_CAN_ERROR_COUNTERS COCanTwaiErrors(const CO_CAN_TWAI* can) { return TwaiDriver::errors(can); }
 
 }  // extern "C"

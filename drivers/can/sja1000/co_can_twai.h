@@ -20,8 +20,7 @@
 #ifndef CO_CAN_TWAI_H_
 #define CO_CAN_TWAI_H_
 
-#include "co_sja1000_state.h"
-#include "sja1000_registers.h"
+#include "co_can_sja1000.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -73,6 +72,10 @@ typedef struct CO_CAN_TWAI_T {
   bool Loopback;
 
   /// \cond internal
+  CO_RING Received;
+  const CO_CAN_SJA1000_RATE* Rate;  // null: off the bus
+  CO_SJA1000_TRANSMIT Transmit;
+  CO_CAN_REPORT Report;
   CO_SJA1000_STATE State;
   /// \endcond
 } CO_CAN_TWAI;

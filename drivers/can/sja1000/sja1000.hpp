@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sja1000.hpp
-/// The driver for SJA1000 and TWAI. Port is a class with the context, the access to registers and the differences of
-/// the controllers: see co_can_sja1000.cpp, co_can_twai.cpp.
+/// The port of controller::Driver for SJA1000 and TWAI. Variant is a class with the context, the access to registers
+/// and the differences of the controllers: see co_can_sja1000.cpp, co_can_twai.cpp.
 #ifndef CO_DRIVERS_SJA1000_HPP_
 #define CO_DRIVERS_SJA1000_HPP_
 
 #include <cstdint>
 
 #include "../controller.hpp"
-#include "../transmit.hpp"
-#include "co_sja1000_state.h"
+#include "co_can_sja1000.h"
 #include "sja1000_filters.hpp"
 #include "sja1000_registers.h"
 
 namespace co::sja1000 {
 /// \cond internal
-
-inline constexpr std::int16_t one_frame = sizeof(CO_IF_FRM);
 
 // Limits of loops. The frame on the wire has to end before the controller goes off the bus.
 inline constexpr unsigned status_reads = 20000;
@@ -37,10 +34,10 @@ enum class BusOff : std::uint8_t {
   recovering  // the recovery has begun
 };
 
-template <typename Port>
-class Driver {
+template <typename Variant>
+class Port {
  public:
-  using Can = typename Port::Context;
+  using Can = typename Variant::Context;
 
  private:
   using State = report::State;
@@ -48,15 +45,12 @@ class Driver {
   static constexpr std::uint32_t bus_interrupts =
       CO_SJA1000_IR_RI | CO_SJA1000_IR_TI | CO_SJA1000_IR_EI | CO_SJA1000_IR_EPI;
 
-  static Can& controller(void* ctx) { return *static_cast<Can*>(ctx); }
-
-  static std::uint32_t read(const Can& can, std::uint8_t address) { return Port::read(can, address); }
-  static void write(const Can& can, std::uint8_t address, std::uint32_t value) { Port::write(can, address, value); }
+  static std::uint32_t read(const Can& can, std::uint8_t address) { return Variant::read(can, address); }
+  static void write(const Can& can, std::uint8_t address, std::uint32_t value) { Variant::write(can, address, value); }
 
   static std::uint32_t status_of(const Can& can) { return read(can, CO_SJA1000_SR); }
   static BusOff bus_off_of(const Can& can) { return static_cast<BusOff>(can.State.BusOff); }
   static void set_bus_off(Can& can, BusOff state) { can.State.BusOff = static_cast<std::uint8_t>(state); }
-  static bool is_bus_off(const Can& can) { return (status_of(can) & CO_SJA1000_SR_BS) != 0; }
   static bool is_in_reset_mode(const Can& can) { return (read(can, CO_SJA1000_MOD) & CO_SJA1000_MOD_RM) != 0; }
 
   // Writes a command. The read access ensures the distance to the next one.
@@ -99,14 +93,14 @@ class Driver {
     // Where an abort sets TCS, too, only a frame is aborted that is not on the wire: another node is transmitting
     // before and after the abort.
     void abort(unsigned /*mailboxes*/) {
-      if (!Port::abort_sets_complete) {
+      if (!Variant::abort_sets_complete) {
         command(can_, CO_SJA1000_CMR_AT);
       } else if (is_receiver(status_of(can_))) {
         command(can_, CO_SJA1000_CMR_AT);
         const std::uint32_t status = status_of(can_);
         can_.State.IsAborted = (status & CO_SJA1000_SR_TBS) != 0 && is_receiver(status) ? 1 : 0;
       } else {
-        can_.State.Transmit.Aborting = 0;  // request_overtaking() tries again
+        can_.Transmit.Aborting = 0;  // request_overtaking() tries again
       }
     }
 
@@ -135,7 +129,7 @@ class Driver {
 
   // Requests the frames that wait.
   static void request_waiting(Can& can) {
-    CO_SJA1000_TRANSMIT& box = can.State.Transmit;
+    CO_SJA1000_TRANSMIT& box = can.Transmit;
     if ((box.Used | box.DisplacedNum) != 0 && bus_off_of(can) == BusOff::no) {
       Buffer buffer(can);
       transmit::finish(box, buffer);
@@ -144,8 +138,8 @@ class Driver {
 
   // Exchanges the frame in the buffer for a displaced one of higher priority, if it was not aborted for that one.
   static void request_overtaking(Can& can) {
-    CO_SJA1000_TRANSMIT& box = can.State.Transmit;
-    if (Port::abort_sets_complete && box.Aborting == 0 && transmit::is_overtaken(box)) {
+    CO_SJA1000_TRANSMIT& box = can.Transmit;
+    if (Variant::abort_sets_complete && box.Aborting == 0 && transmit::is_overtaken(box)) {
       Buffer(can).abort(1);
       request_waiting(can);
     }
@@ -174,14 +168,13 @@ class Driver {
     const std::uint32_t information = read(can, address++);
     const bool is_extended = (information & CO_SJA1000_FRAME_FF) != 0;
     const bool is_remote = (information & CO_SJA1000_FRAME_RTR) != 0;
-    const std::uint32_t dlc = information & CO_SJA1000_FRAME_DLC;
     std::uint32_t word = 0;
     const unsigned id_bytes = is_extended ? 4 : 2;
     for (unsigned n = 0; n < id_bytes; ++n) {
       word |= (read(can, address++) & 0xFF) << (24 - 8 * n);
     }
     frame.Identifier = (is_extended ? (word >> 3) | CO_IF_FRM_EXT : word >> 21) | (is_remote ? CO_IF_FRM_RTR : 0);
-    frame.DLC = dlc < transmit::bytes_at_most ? static_cast<std::uint8_t>(dlc) : transmit::bytes_at_most;
+    frame.DLC = transmit::length_of(information & CO_SJA1000_FRAME_DLC);
     for (unsigned n = 0; n < frame.DLC && !is_remote; ++n) {
       frame.Data[n] = static_cast<std::uint8_t>(read(can, address++));
     }
@@ -204,14 +197,14 @@ class Driver {
     bool is_counted = false;
     const auto count_once = [&can, &is_counted] {
       if (!is_counted) {
-        report::count_overflow(can.State.Report);
+        report::count_overflow(can.Report);
       }
       is_counted = true;
     };
     CO_IF_FRM frame{};
     std::uint32_t status = status_of(can);
     for (unsigned n = 0; n < fifo_reads; ++n, status = status_of(can)) {
-      const bool is_incomplete = Port::is_incomplete(can, status);
+      const bool is_incomplete = Variant::is_incomplete(can, status);
       if (is_incomplete || (status & CO_SJA1000_SR_DOS) != 0) {
         count_once();
         command(can, CO_SJA1000_CMR_CDO);
@@ -219,7 +212,7 @@ class Driver {
       if ((status & CO_SJA1000_SR_RBS) == 0) {
         return;
       }
-      if (Port::is_fifo_broken(can)) {
+      if (Variant::is_fifo_broken(can)) {
         count_once();
         can.State.NeedsRestart = 1;
         return;
@@ -228,15 +221,15 @@ class Driver {
         return;
       }
       if (!is_incomplete) {
-        static_cast<void>(CORingPut(&can.State.Received, &frame));
+        static_cast<void>(CORingPut(&can.Received, &frame));
       }
     }
   }
 
   // Empties the queue and forgets what was reported. Called while the interrupts of the controller are disabled.
   static void empty_queue(Can& can) {
-    static_cast<void>(CORingInit(&can.State.Received, can.Frames, can.FrameNum));
-    report::restart(can.State.Report);
+    static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
+    report::restart(can.Report);
   }
 
   // Filters -----------------------------------------------------------------------------------------------------------
@@ -278,7 +271,7 @@ class Driver {
       }
       receive(can);
       enter_reset_mode(can);
-      transmit::take_back(can.State.Transmit);
+      transmit::take_back(can.Transmit);
       write_filters(can);
       enable_interrupts(can);
       leave_reset_mode(can);
@@ -311,7 +304,7 @@ class Driver {
   }
 
   static void write_interrupt_enable(const Can& can) {
-    write(can, CO_SJA1000_IER, bus_interrupts | Port::interrupts(can));
+    write(can, CO_SJA1000_IER, bus_interrupts | Variant::interrupts(can));
   }
 
   // In reset mode and during the recovery from bus-off, listen-only mode freezes the receive error counter of ESP32.
@@ -319,13 +312,13 @@ class Driver {
   static void enter_reset_mode(const Can& can) {
     write(can, CO_SJA1000_MOD, CO_SJA1000_MOD_RM);
     static_cast<void>(await_bits(can, CO_SJA1000_MOD, CO_SJA1000_MOD_RM, CO_SJA1000_MOD_RM, mode_reads));
-    if (Port::has_errata(can)) {
+    if (Variant::has_errata(can)) {
       write(can, CO_SJA1000_MOD, CO_SJA1000_MOD_RM | CO_SJA1000_MOD_LOM);
     }
   }
 
   static void leave_reset_mode(const Can& can) {
-    const bool freezes = Port::has_errata(can) && bus_off_of(can) == BusOff::recovering;
+    const bool freezes = Variant::has_errata(can) && bus_off_of(can) == BusOff::recovering;
     const std::uint32_t mode = (freezes ? CO_SJA1000_MOD_LOM : 0) | (can.Loopback ? CO_SJA1000_MOD_STM : 0);
     write(can, CO_SJA1000_MOD, CO_SJA1000_MOD_RM | mode);
     write(can, CO_SJA1000_MOD, mode);
@@ -334,7 +327,7 @@ class Driver {
 
   // Writes all registers that determine the function of the controller, which is in reset mode.
   static void write_configuration(const Can& can, const CO_CAN_SJA1000_RATE& rate) {
-    Port::write_configuration(can);
+    Variant::write_configuration(can);
     write(can, CO_SJA1000_BTR0, rate.Timing & 0xFFFF);
     write(can, CO_SJA1000_BTR1, rate.Timing >> 16 & 0xFF);
     write(can, CO_SJA1000_EWLR, warning_limit);
@@ -348,14 +341,14 @@ class Driver {
   static void begin_recovery(Can& can) {
     set_bus_off(can, BusOff::recovering);
     write_filters(can);
-    Port::clear_receive_errors(can);
+    Variant::clear_receive_errors(can);
     leave_reset_mode(can);
   }
 
   // A frame that ESP32 sends after the recovery may be faulty, unless reset mode was entered. [Errata, 3.13.3]
   static void end_recovery(Can& can) {
     set_bus_off(can, BusOff::no);
-    if (Port::has_errata(can)) {
+    if (Variant::has_errata(can)) {
       enter_reset_mode(can);
       leave_reset_mode(can);
     }
@@ -371,13 +364,13 @@ class Driver {
     }
     if (before == BusOff::no) {
       set_bus_off(can, BusOff::lasts);
-      report::count_bus_off(can.State.Report);
-      transmit::take_back(can.State.Transmit);
+      report::count_bus_off(can.Report);
+      transmit::take_back(can.Transmit);
       if (can.Recovery == CO_CAN_RECOVERY_AUTOMATIC) {
         begin_recovery(can);
       }
     } else if (before == BusOff::recovering && is_in_reset_mode(can)) {
-      leave_reset_mode(can);  // Port::clear_receive_errors() has caused bus-off again
+      leave_reset_mode(can);  // Variant::clear_receive_errors() has caused bus-off again
     }
   }
 
@@ -392,11 +385,11 @@ class Driver {
     const std::uint32_t receive_errors = read(can, CO_SJA1000_RXERR);
     const std::uint32_t transmit_errors = read(can, CO_SJA1000_TXERR);
     enter_reset_mode(can);
-    transmit::take_back(can.State.Transmit);
-    Port::reset_peripheral(can);
+    transmit::take_back(can.Transmit);
+    Variant::reset_peripheral(can);
     enter_reset_mode(can);
-    Port::select_pelican(can);
-    write_configuration(can, *can.State.Rate);
+    Variant::select_pelican(can);
+    write_configuration(can, *can.Rate);
     write(can, CO_SJA1000_RXERR, receive_errors);
     write(can, CO_SJA1000_TXERR, transmit_errors);
     static_cast<void>(read(can, CO_SJA1000_IR));
@@ -413,19 +406,59 @@ class Driver {
     request_waiting(can);
   }
 
-  // Joining and leaving the bus
-  // -------------------------------------------------------------------------------------------
+ public:
+  // Members for controller::Driver ------------------------------------------------------------------------------------
 
-  static const CO_CAN_SJA1000_RATE* find_rate(const Can& can, std::uint32_t baud) {
-    for (unsigned n = 0; n < can.RateNum; ++n) {
-      if (can.Rates[n].Baud == baud) {
-        return &can.Rates[n];
-      }
-    }
-    return nullptr;
+  static bool is_bus_off(const Can& can) { return (status_of(can) & CO_SJA1000_SR_BS) != 0; }
+
+  static CO_CAN_ERROR_COUNTERS errors(const Can& can) {
+    return {static_cast<std::uint8_t>(read(can, CO_SJA1000_TXERR)),
+            static_cast<std::uint8_t>(read(can, CO_SJA1000_RXERR))};
   }
 
-  // Goes off the bus after the frame on the wire. PeliCAN mode is selected before any register that has another address
+  // Reads the error counters only if one of them has reached the warning limit.
+  static State poll(Can& can) {
+    if (can.Transmit.DisplacedNum != 0) {
+      run_exclusively(can, [&can] { request_overtaking(can); });
+    }
+    const std::uint32_t status = status_of(can);
+    if (((status & CO_SJA1000_SR_BS) != 0) != (bus_off_of(can) != BusOff::no)) {
+      run_exclusively(can,
+                      [&can] { update_controller(can); });  // the change occurred while the interrupts were disabled
+    }
+    if ((status & CO_SJA1000_SR_BS) != 0) {
+      return State::bus_off;
+    }
+    if ((status & CO_SJA1000_SR_ES) == 0) {
+      return State::active;
+    }
+    const CO_CAN_ERROR_COUNTERS now = errors(can);
+    return now.Transmit > passive_limit || now.Receive > passive_limit ? State::passive : State::active;
+  }
+
+  static bool accept(Can& can, const CO_IF_FRM& frame) {
+    bool is_accepted = false;
+    run_exclusively(can, [&can, &is_accepted, &frame] {
+      Buffer buffer(can);
+      is_accepted = bus_off_of(can) == BusOff::no && transmit::accept(can.Transmit, buffer, frame);
+    });
+    return is_accepted;
+  }
+
+  static void discard(Can& can) {
+    run_exclusively(can, [&can] {
+      disable_interrupts(can);
+      command(can, CO_SJA1000_CMR_AT);
+      can.Transmit.Dropped = can.Transmit.Used;
+      can.Transmit.DisplacedNum = 0;
+      receive(can);
+      empty_queue(can);
+      enable_interrupts(can);
+      update_controller(can);
+    });
+  }
+
+  // PeliCAN mode is selected before any register that has another address
   // in the mode of a hardware reset.
   static void leave_bus(Can& can) {
     run_exclusively(can, [&can] {
@@ -434,10 +467,10 @@ class Driver {
         static_cast<void>(await_bits(can, CO_SJA1000_SR, CO_SJA1000_SR_TBS, CO_SJA1000_SR_TBS, status_reads));
       }
       enter_reset_mode(can);
-      Port::select_pelican(can);
+      Variant::select_pelican(can);
       disable_interrupts(can);
-      can.State.Rate = nullptr;
-      transmit::forget(can.State.Transmit);
+      can.Rate = nullptr;
+      transmit::forget(can.Transmit);
       can.State.NeedsRestart = 0;
       report::store(can.State.IsMissed, std::uint8_t{0});
     });
@@ -452,132 +485,40 @@ class Driver {
     const bool recovers = is_bus_off(can);
     set_bus_off(can, recovers ? BusOff::recovering : BusOff::no);
     run_exclusively(can, [&can, &rate, recovers] {
-      can.State.Rate = &rate;
+      can.Rate = &rate;
       write_interrupt_enable(can);
       recovers ? begin_recovery(can) : leave_reset_mode(can);
     });
   }
 
-  // Reporting ---------------------------------------------------------------------------------------------------------
-
-  static State state_of(std::uint32_t status, const CO_CAN_ERROR_COUNTERS& errors) {
-    if ((status & CO_SJA1000_SR_BS) != 0) {
-      return State::bus_off;
-    }
-    return errors.Transmit > passive_limit || errors.Receive > passive_limit ? State::passive : State::active;
-  }
-
-  // Fills an error frame with the changes since the last report. Returns false if there are none. The counters are read
-  // only if one of them has reached the warning limit, or if there is something to report.
-  static bool report_events(Can& can, CO_IF_FRM& frame) {
-    CO_CAN_REPORT& reported = can.State.Report;
-    const std::uint32_t status = status_of(can);
-    if (((status & CO_SJA1000_SR_BS) != 0) != (bus_off_of(can) != BusOff::no)) {
-      run_exclusively(can,
-                      [&can] { update_controller(can); });  // the change occurred while the interrupts were disabled
-    }
-    const std::uint32_t lost = lost_frames(can);
-    const bool is_quiet = (status & (CO_SJA1000_SR_ES | CO_SJA1000_SR_BS)) == 0 && lost == reported.ReportedLost &&
-                          reported.Reported == static_cast<std::uint8_t>(State::active) &&
-                          report::load(reported.BusOffs) == reported.SeenBusOffs;
-    if (is_quiet) {
-      return false;
-    }
-    const CO_CAN_ERROR_COUNTERS errors = errors_of(can);
-    return report::take(reported, {report::observed(reported, state_of(status, errors)), errors, lost}, frame);
-  }
-
- public:
-  // Functions of the driver -------------------------------------------------------------------------------------------
-
-  static void init(void* ctx) {
-    Can& can = controller(ctx);
+  static void init(Can& can) {
     leave_bus(can);
     empty_queue(can);
     store_filters(can, {});
   }
 
-  static void enable(void* ctx, std::uint32_t baud) {
-    Can& can = controller(ctx);
-    const CO_CAN_SJA1000_RATE* const rate = find_rate(can, baud);
-    can.State.Report.Reported = static_cast<std::uint8_t>(State::active);
-    if (rate == nullptr) {
-      leave_bus(can);
-      return;
-    }
-    join_bus(can, *rate);
-  }
-
-  static std::int16_t read_driver(void* ctx, CO_IF_FRM* frm) {
-    Can& can = controller(ctx);
-    if (can.State.Rate == nullptr) {
-      return 0;
-    }
-    if (can.State.Transmit.DisplacedNum != 0) {
-      run_exclusively(can, [&can] { request_overtaking(can); });
-    }
-    return report_events(can, *frm) || CORingGet(&can.State.Received, frm) ? one_frame : std::int16_t{0};
-  }
-
-  static std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
-    Can& can = controller(ctx);
-    if (can.State.Rate == nullptr || is_bus_off(can)) {
-      return -1;
-    }
-    bool accepted = false;
-    run_exclusively(can, [&can, &accepted, frm] {
-      Buffer buffer(can);
-      accepted = bus_off_of(can) == BusOff::no && transmit::accept(can.State.Transmit, buffer, *frm);
-    });
-    return accepted ? one_frame : std::int16_t{0};
-  }
-
-  static void reset(void* ctx) {
-    Can& can = controller(ctx);
-    if (can.State.Rate == nullptr) {
-      return;
-    }
-    if (is_bus_off(can)) {
-      join_bus(can, *can.State.Rate);
-      return;
-    }
-    run_exclusively(can, [&can] {
-      disable_interrupts(can);
-      command(can, CO_SJA1000_CMR_AT);
-      can.State.Transmit.Dropped = can.State.Transmit.Used;
-      can.State.Transmit.DisplacedNum = 0;
-      receive(can);
-      empty_queue(can);
-      enable_interrupts(can);
-      update_controller(can);
-    });
-  }
-
-  static void close(void* ctx) { leave_bus(controller(ctx)); }
-
-  static void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
-    Can& can = controller(ctx);
+  static void filter(Can& can, const std::uint32_t* ids, unsigned num) {
     const Filters present = filters(can);
-    if (can.State.Rate != nullptr && !is_open(present) && all_pass(present, ids, num)) {
+    if (can.Rate != nullptr && !is_open(present) && all_pass(present, ids, num)) {
       return;
     }
     store_filters(can, filters_of(ids, num));
-    if (can.State.Rate != nullptr) {
+    if (can.Rate != nullptr) {
       change_filters(can);
     }
   }
 
   static void interrupt(Can& can) {
-    if (can.State.Rate == nullptr || report::load(can.State.IsHeld) == held_completely) {
+    if (can.Rate == nullptr || report::load(can.State.IsHeld) == held_completely) {
       return;
     }
-    for (unsigned n = 0; n < Port::interrupt_reads; ++n) {
+    for (unsigned n = 0; n < Variant::interrupt_reads; ++n) {
       const std::uint32_t flags = read(can, CO_SJA1000_IR);
       if (flags == 0 && n != 0) {
         return;
       }
       receive(can);
-      if (Port::spoils_next_frame(can, flags)) {
+      if (Variant::spoils_next_frame(can, flags)) {
         can.State.NeedsRestart = 1;
       }
       if (report::load(can.State.IsHeld) != not_held) {
@@ -586,15 +527,6 @@ class Driver {
         update_controller(can);
       }
     }
-  }
-
-  static std::uint32_t lost_frames(const Can& can) {
-    return report::load(can.State.Report.Overflows) + CORingLost(&can.State.Received);
-  }
-
-  static CO_CAN_ERROR_COUNTERS errors_of(const Can& can) {
-    return {static_cast<std::uint8_t>(read(can, CO_SJA1000_TXERR)),
-            static_cast<std::uint8_t>(read(can, CO_SJA1000_RXERR))};
   }
 };
 

@@ -12,7 +12,7 @@
 #include <array>
 
 #include "../bit_timing.hpp"
-#include "co_sja1000_state.h"
+#include "co_can_sja1000.h"
 #include "sja1000_registers.h"
 
 namespace co {
