@@ -92,10 +92,11 @@ inline void count_bus_off(CO_CAN_REPORT& report) {
 /// Returns the state to report: \a now, or bus-off if the controller went to bus-off and back since the last call.
 inline State observed(CO_CAN_REPORT& report, State now) {
   const std::uint8_t bus_offs = load(report.BusOffs);
-  const bool was_bus_off = bus_offs != report.SeenBusOffs;
+  if (bus_offs == report.SeenBusOffs) {
+    return now;
+  }
   report.SeenBusOffs = bus_offs;
-  const bool is_reported = report.Reported == static_cast<std::uint8_t>(State::bus_off);
-  return was_bus_off && !is_reported ? State::bus_off : now;
+  return report.Reported == static_cast<std::uint8_t>(State::bus_off) ? now : State::bus_off;
 }
 
 /// Fills an error frame with the changes since the last report. Returns false if there are none; the function errors,

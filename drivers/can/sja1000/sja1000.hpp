@@ -426,11 +426,11 @@ class Port {
       run_exclusively(can,
                       [&can] { update_controller(can); });  // the change occurred while the interrupts were disabled
     }
+    if ((status & (CO_SJA1000_SR_ES | CO_SJA1000_SR_BS)) == 0) {
+      return State::active;
+    }
     if ((status & CO_SJA1000_SR_BS) != 0) {
       return State::bus_off;
-    }
-    if ((status & CO_SJA1000_SR_ES) == 0) {
-      return State::active;
     }
     const CO_CAN_ERROR_COUNTERS now = errors(can);
     return now.Transmit > passive_limit || now.Receive > passive_limit ? State::passive : State::active;
