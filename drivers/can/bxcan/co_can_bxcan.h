@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_can_bxcan.h
-/// Driver for bxCAN, the CAN controller of STM32 F0, F1, F2, F3, F4, F7 and L4 (docs/drivers/bxcan.md): one context for
-/// each controller. C and C++, bare metal or in a task of an RTOS.
-/// Tested on a register model, not on silicon.
+/// Driver for bxCAN, the CAN controller of STM32 F0, F1, F2, F3, F4, F7 and L4 (docs/drivers/bxcan.md). What it has in
+/// common with other drivers is in co_can_controller.h. Tested on a register model, not on silicon.
 ///
 ///     static const CO_CAN_BXCAN_RATE rates[] = {CO_CAN_BXCAN_RATE_OF(36000000, 500000, 18)};
 ///     static CO_IF_FRM frames[32];
@@ -12,38 +11,19 @@
 ///     void USB_LP_CAN1_RX0_IRQHandler(void) { COCanBxcanInterrupt(&can1); }  // likewise the vectors TX and SCE
 ///
 /// The board must enable the clock of the controller (of CAN2: also that of CAN1), its pins and the three interrupts
-/// TX, RX0 and SCE, with one priority, before CONodeInit(). The bit timings that the node may use (also by LSS) are a
-/// table. In C++ bxcan_rates.hpp computes and checks it; in C the macro CO_CAN_BXCAN_RATE_OF() does, with a given
-/// number of quanta per bit.
+/// TX, RX0 and SCE, with one priority, before CONodeInit().
 ///
-/// With a rate that is not in the table, the controller stays off the bus: Send returns -1.
-///
-/// Receiving. The interrupt moves frames from receive FIFO 0 (three frames) into the queue at CO_CAN_BXCAN.Frames, from
-/// which the loop reads them, without a lock. A frame that arrives while either is full is lost: COCanBxcanLost()
-/// counts it, and the node reports CO_CAN_OVERRUN. Three short frames take 141 us at 1 Mbit/s: no other interrupt, and
-/// no section with disabled interrupts, may be longer.
+/// Receive FIFO 0 has three frames. Three short frames take 141 us at 1 Mbit/s: no other interrupt, and no section with
+/// disabled interrupts, may be longer.
 ///
 /// The driver sets the filter banks from the identifiers that the node receives: two filters in each bank, without
 /// interrupting reception. One bank passes all frames during a change. Filters are exact for as many 11-bit identifiers
 /// as there are filters (26 with 14 banks); for more of them, and for 29-bit identifiers, of which the controller
 /// compares 14 bits, some more frames pass, which the node ignores.
 ///
-/// Sending. Three mailboxes send the lowest identifier first; see transmit.hpp. A frame waits for at most one frame of
-/// lower priority of this node, the one on the wire; frames of one identifier keep their order, and no frame overtakes
-/// the boot-up message. docs/drivers/bxcan.md has the two exceptions.
-///
-/// Bus-off. CO_CAN_BXCAN.Recovery selects the rule: by the application (COIfCanReset(), which every NMT reset calls, or
-/// Enable), or automatic. Send returns -1 until the controller is on the bus again. The node reports CO_CAN_BUS_OFF,
-/// and CO_CAN_RECOVERED when the controller is on the bus again; frames that were accepted before are sent then, after
-/// a recovery by Reset or Enable they are discarded. Read detects CO_CAN_PASSIVE, and CO_CAN_RECOVERED after it.
-///
-/// Reset and Close abort all frames that wait for transmission. A frame that is on the wire is completed.
-///
 /// bxCAN is a controller of CAN 2.0B: it destroys CAN FD frames by error frames. A bus with CAN FD needs another one.
 ///
-/// Context: the loop, and interrupts of one priority on the same CPU that call COCanBxcanInterrupt(). Controllers that
-/// share filter banks (CAN1, CAN2) are used in the same loop.
-/// Owner: context and frames are the caller's and must live as long as the node; one node for each context.
+/// Controllers that share filter banks (CAN1, CAN2) are used in the same loop.
 #ifndef CO_CAN_BXCAN_H_
 #define CO_CAN_BXCAN_H_
 
@@ -69,26 +49,20 @@ typedef struct CO_CAN_BXCAN_RATE_T {
   uint32_t Timing;  ///< without LBKM and SILM
 } CO_CAN_BXCAN_RATE;
 
-/// \cond internal
-#define CO_CAN_BXCAN_SEGMENT2(quanta) (((quanta) + 4u) / 8u)
-#define CO_CAN_BXCAN_SEGMENT1(quanta) ((quanta)-1u - CO_CAN_BXCAN_SEGMENT2(quanta))
-/// \endcond
-
 /// \name Bit timing in C: \a clock in Hz, \a baud in bit/s, and the number of quanta in a bit, 8…10 or 14…19
 /// \{
 
 /// Initialises a CO_CAN_BXCAN_RATE; the sample point is as near to 87.5 % as these quanta allow.
 /// Does not compile if the macro …_FITS() for the same values is false, or no constant.
-#define CO_CAN_BXCAN_RATE_OF(clock, baud, quanta)                                                           \
-  {                                                                                                         \
-    (baud) * CO_REQUIRED(CO_CAN_BXCAN_RATE_FITS(clock, baud, quanta)),                                      \
-        ((CO_CAN_BXCAN_SEGMENT2(quanta) - 1u) << 24) | ((CO_CAN_BXCAN_SEGMENT2(quanta) - 1u) << 20) |       \
-            ((CO_CAN_BXCAN_SEGMENT1(quanta) - 1u) << 16) | ((uint32_t)((clock) / ((baud) * (quanta))) - 1u) \
+#define CO_CAN_BXCAN_RATE_OF(clock, baud, quanta)                                                     \
+  {                                                                                                   \
+    (baud) * CO_REQUIRED(CO_CAN_BXCAN_RATE_FITS(clock, baud, quanta)),                                \
+        ((CO_CAN_SEGMENT2(quanta) - 1u) << 24) | ((CO_CAN_SEGMENT2(quanta) - 1u) << 20) |             \
+            ((CO_CAN_SEGMENT1(quanta) - 1u) << 16) | ((uint32_t)((clock) / ((baud) * (quanta))) - 1u) \
   }
 /// True if this timing is exact, its sample point is allowed by CiA 301, and the controller supports it.
-#define CO_CAN_BXCAN_RATE_FITS(clock, baud, quanta)                                                             \
-  ((((quanta) >= 8 && (quanta) <= 10) || ((quanta) >= 14 && (quanta) <= 19)) && (clock) >= (baud) * (quanta) && \
-   (clock) % ((baud) * (quanta)) == 0 && (clock) / ((baud) * (quanta)) <= 1024)
+#define CO_CAN_BXCAN_RATE_FITS(clock, baud, quanta) \
+  (CO_CAN_QUANTA_FIT(quanta, 19) && CO_CAN_IS_EXACT(clock, baud, quanta, 1024))
 /// \}
 
 /// A controller. Initialise it with zero, then set the members up to Loopback; the driver owns the others.

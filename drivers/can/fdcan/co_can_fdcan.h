@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_can_fdcan.h
 /// Drivers for M_CAN by Bosch, the CAN FD controller of STM32 and others (docs/drivers/fdcan.md), used for classic CAN
-/// frames: one context for each controller. C and C++, bare metal or in a task of an RTOS.
-/// Tested on a register model, not on silicon.
+/// frames. What they have in common with other drivers is in co_can_controller.h. Tested on a register model, not on
+/// silicon.
 ///
 /// | driver, interrupt function | message memory | controllers |
 /// |---|---|---|
@@ -17,36 +17,17 @@
 ///     void FDCAN1_IT0_IRQHandler(void) { COCanFdcanInterrupt(&can1); }
 ///
 /// The board must enable the bus clock and the kernel clock of the controller, its pins and interrupt line 0 before
-/// CONodeInit(). The bit timings that the node may use (also by LSS) are a table. In C++ fdcan_rates.hpp computes and
-/// checks it; in C the macro CO_CAN_FDCAN_RATE_OF() does, with a given number of quanta per bit.
+/// CONodeInit().
 ///
-/// With a rate that is not in the table, the controller stays off the bus: Send returns -1.
+/// The receive FIFO of the fixed memory has three frames, 141 us at 1 Mbit/s: no other interrupt, and no section with
+/// disabled interrupts, may be longer. That of the configurable memory has 1 to 64.
 ///
-/// Receiving. The interrupt moves frames from receive FIFO 0 into the queue at CO_CAN_FDCAN.Frames, from which the loop
-/// reads them, without a lock. A frame that arrives while either is full is lost: COCanFdcanLost() counts it, and the
-/// node reports CO_CAN_OVERRUN. The FIFO of the fixed memory has three frames, 141 us at 1 Mbit/s: no other interrupt,
-/// and no section with disabled interrupts, may be longer. That of the configurable memory has 1 to 64.
-///
-/// The driver sets the filters from the identifiers that the node receives, without interrupting reception: 27 ranges
-/// of 11-bit identifiers and 7 of 29-bit ones. If these do not suffice, the ranges with the smallest gap are merged,
-/// and some more frames pass, which the node ignores. Remote frames pass like data frames.
-///
-/// Sending. Three buffers send the lowest identifier first; see transmit.hpp. A frame waits for at most one frame of
-/// lower priority of this node, the one on the wire; frames of one identifier keep their order, and no frame overtakes
-/// the boot-up message. docs/drivers/fdcan.md has the two exceptions.
+/// The filters, which change without interrupting reception, are 27 ranges of 11-bit identifiers and 7 of 29-bit ones.
+/// If these do not suffice, the ranges with the smallest gap are merged, and some more frames pass, which the node
+/// ignores. Remote frames pass like data frames.
 ///
 /// CAN FD. The driver sends classic frames only. CAN FD frames of other nodes are received and discarded, so that they
 /// are not destroyed by error frames: without bit rate switching always, with it if CO_CAN_FDCAN.DataTiming is set.
-///
-/// Bus-off. CO_CAN_FDCAN.Recovery selects the rule: by the application (COIfCanReset(), which every NMT reset calls, or
-/// Enable), or automatic. Send returns -1 until the controller is on the bus again. The node reports CO_CAN_BUS_OFF,
-/// and CO_CAN_RECOVERED when the controller is on the bus again; frames that were accepted before are sent then, after
-/// a recovery by Reset or Enable they are discarded. Read detects CO_CAN_PASSIVE, and CO_CAN_RECOVERED after it.
-///
-/// Reset and Close cancel all frames that wait for transmission. A frame that is on the wire is completed.
-///
-/// Context: the loop, and one interrupt on the same CPU.
-/// Owner: context and frames are the caller's and must live as long as the node; one node for each context.
 #ifndef CO_CAN_FDCAN_H_
 #define CO_CAN_FDCAN_H_
 
@@ -85,26 +66,20 @@ typedef struct CO_CAN_FDCAN_RATE_T {
   uint32_t Timing;  ///< prescaler and segments, as in the register
 } CO_CAN_FDCAN_RATE;
 
-/// \cond internal
-#define CO_CAN_FDCAN_SEGMENT2(quanta) (((quanta) + 4u) / 8u)
-#define CO_CAN_FDCAN_SEGMENT1(quanta) ((quanta)-1u - CO_CAN_FDCAN_SEGMENT2(quanta))
-/// \endcond
-
 /// \name Bit timing in C: \a clock in Hz, \a baud in bit/s, and the number of quanta in a bit, 14…256
 /// \{
 
 /// Initialises a CO_CAN_FDCAN_RATE; the sample point is as near to 87.5 % as these quanta allow.
 /// Does not compile if the macro …_FITS() for the same values is false, or no constant.
-#define CO_CAN_FDCAN_RATE_OF(clock, baud, quanta)                                                                 \
-  {                                                                                                               \
-    (baud) * CO_REQUIRED(CO_CAN_FDCAN_RATE_FITS(clock, baud, quanta)),                                            \
-        ((CO_CAN_FDCAN_SEGMENT2(quanta) - 1u) << 25) | (((uint32_t)((clock) / ((baud) * (quanta))) - 1u) << 16) | \
-            ((CO_CAN_FDCAN_SEGMENT1(quanta) - 1u) << 8) | (CO_CAN_FDCAN_SEGMENT2(quanta) - 1u)                    \
+#define CO_CAN_FDCAN_RATE_OF(clock, baud, quanta)                                                           \
+  {                                                                                                         \
+    (baud) * CO_REQUIRED(CO_CAN_FDCAN_RATE_FITS(clock, baud, quanta)),                                      \
+        ((CO_CAN_SEGMENT2(quanta) - 1u) << 25) | (((uint32_t)((clock) / ((baud) * (quanta))) - 1u) << 16) | \
+            ((CO_CAN_SEGMENT1(quanta) - 1u) << 8) | (CO_CAN_SEGMENT2(quanta) - 1u)                          \
   }
 /// True if this timing is exact, its sample point is allowed by CiA 301, and the controller supports it.
-#define CO_CAN_FDCAN_RATE_FITS(clock, baud, quanta)                                                           \
-  ((quanta) >= 14 && (quanta) <= 256 && (clock) >= (baud) * (quanta) && (clock) % ((baud) * (quanta)) == 0 && \
-   (clock) / ((baud) * (quanta)) <= 512)
+#define CO_CAN_FDCAN_RATE_FITS(clock, baud, quanta) \
+  ((quanta) >= 14 && (quanta) <= 256 && CO_CAN_IS_EXACT(clock, baud, quanta, 512))
 /// \}
 
 /// A controller. Initialise it with zero, then set the members up to Loopback; the driver owns the others.

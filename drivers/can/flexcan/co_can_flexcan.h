@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_can_flexcan.h
 /// Driver for FlexCAN, the CAN controller of NXP's i.MX 6, 8 and RT, S32K and Kinetis (docs/drivers/flexcan.md), used
-/// for classic CAN frames: one context for each controller. C and C++, bare metal or in a task of an RTOS.
-/// Tested on a register model and in QEMU on the controllers of an i.MX 6, not on silicon.
+/// for classic CAN frames. What it has in common with other drivers is in co_can_controller.h. Tested on a register
+/// model and in QEMU on the controllers of an i.MX 6, not on silicon.
 ///
 ///     static const CO_CAN_FLEXCAN_RATE rates[] = {CO_CAN_FLEXCAN_RATE_OF(40000000, 500000, 16)};
 ///     static CO_IF_FRM frames[32];
@@ -12,38 +12,19 @@
 ///     void CAN1_IRQHandler(void) { COCanFlexcanInterrupt(&can1); }    // or each of the vectors of the controller
 ///
 /// The board must enable the clocks of the controller, its pins and its interrupts, with one priority, before
-/// CONodeInit(). The bit timings that the node may use (also by LSS) are a table. In C++ flexcan_rates.hpp computes and
-/// checks it; in C the macro CO_CAN_FLEXCAN_RATE_OF() does, with a given number of quanta per bit.
+/// CONodeInit().
 ///
-/// With a rate that is not in the table, the controller stays off the bus: Send returns -1.
-///
-/// Receiving. The interrupt moves frames into the queue at CO_CAN_FLEXCAN.Frames, from which the loop reads them,
-/// without a lock. CO_CAN_FLEXCAN.Receive selects where the controller stores them:
+/// CO_CAN_FLEXCAN.Receive selects where the controller stores received frames:
 /// - the receive FIFO: six frames, 282 us at 1 Mbit/s;
 /// - message buffers: 12 of a controller with 16, 28 of one with 32 or more. They are divided among the filters; the
 ///   interrupt function puts the frames into the order of their time stamps. It needs 750 bytes of stack.
-/// A frame that arrives while its place, or the queue, is full is lost: COCanFlexcanLost() counts it, and the node
-/// reports CO_CAN_OVERRUN.
 ///
-/// The driver sets the filters from the identifiers that the node receives. The FIFO compares up to 24 11-bit
-/// identifiers exactly in a controller with 16 message buffers, 40 in one with more; message buffers compare 6 or 14.
-/// For more of them some other frames pass, too, which the node ignores. Filters can be changed in freeze mode only: a
-/// change on the bus waits for the end of the frame on the wire, and frames that begin in the next bit times are not
-/// received (docs/drivers/flexcan.md).
+/// The FIFO compares up to 24 11-bit identifiers exactly in a controller with 16 message buffers, 40 in one with more;
+/// message buffers compare 6 or 14. For more of them some other frames pass, too, which the node ignores. Filters can
+/// be changed in freeze mode only: a change on the bus waits for the end of the frame on the wire, and frames that
+/// begin in the next bit times are not received (docs/drivers/flexcan.md).
 ///
-/// Sending. Three message buffers send the lowest identifier first (LBUF and LPRIOEN are 0); see transmit.hpp. A frame
-/// waits for at most one frame of lower priority of this node, the one that the controller has selected; frames of one
-/// identifier keep their order, and no frame overtakes the boot-up message. docs/drivers/flexcan.md has the exceptions.
-///
-/// Bus-off. CO_CAN_FLEXCAN.Recovery selects the rule: by the application (COIfCanReset(), which every NMT reset calls,
-/// or Enable), or automatic. Send returns -1 until the controller is on the bus again. The node reports CO_CAN_BUS_OFF,
-/// and CO_CAN_RECOVERED when the controller is on the bus again; frames that were accepted before are sent then, after
-/// a recovery by Reset or Enable they are discarded. Read detects CO_CAN_PASSIVE, and CO_CAN_RECOVERED after it.
-///
-/// Reset and Close abort all frames that wait for transmission. A frame that is on the wire is completed.
-///
-/// Context: the loop, and interrupts of one priority on the same CPU that call COCanFlexcanInterrupt().
-/// Owner: context and frames are the caller's and must live as long as the node; one node for each context.
+/// A frame also waits for one of lower priority that the controller has selected before (LBUF and LPRIOEN are 0).
 #ifndef CO_CAN_FLEXCAN_H_
 #define CO_CAN_FLEXCAN_H_
 
@@ -101,9 +82,8 @@ typedef enum CO_CAN_FLEXCAN_RECEIVE_T {
         0                                                                                                           \
   }
 /// True if this timing is exact, its sample point is allowed by CiA 301, and the controller supports it.
-#define CO_CAN_FLEXCAN_RATE_FITS(clock, baud, quanta)                                            \
-  ((quanta) >= ((baud) >= 800000u ? 8 : 14) && (quanta) <= 20 && (clock) >= (baud) * (quanta) && \
-   (clock) % ((baud) * (quanta)) == 0 && (clock) / ((baud) * (quanta)) <= 256)
+#define CO_CAN_FLEXCAN_RATE_FITS(clock, baud, quanta) \
+  ((quanta) >= ((baud) >= 800000u ? 8 : 14) && (quanta) <= 20 && CO_CAN_IS_EXACT(clock, baud, quanta, 256))
 /// \}
 
 /// A controller. Initialise it with zero, then set the members up to Loopback; the driver owns the others.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_can_sja1000.h
 /// Driver for the CAN controller SJA1000 in PeliCAN mode, and for cards and cores with its registers
-/// (docs/drivers/sja1000.md): one context for each controller. C and C++, with or without an operating system.
-/// Tested on QEMU's PCI cards and on a register model, not on silicon. For the TWAI of ESP32 see co_can_twai.h.
+/// (docs/drivers/sja1000.md). What it has in common with other drivers is in co_can_controller.h. Tested on QEMU's PCI
+/// cards and on a register model, not on silicon. For the TWAI of ESP32 see co_can_twai.h.
 ///
 ///     static const CO_CAN_SJA1000_RATE rates[] = {CO_CAN_SJA1000_RATE_OF(16000000, 500000, 16)};
 ///     static CO_IF_FRM frames[32];
@@ -15,35 +15,17 @@
 /// Registers are accessed by a pair of functions: Sja1000Memory for registers in memory, own functions for I/O ports,
 /// PCI cards with further registers, or a multiplexed bus.
 ///
-/// The bit timings that the node may use (also by LSS) are a table. In C++ sja1000_rates.hpp computes and checks it; in
-/// C the macro CO_CAN_SJA1000_RATE_OF() does, with a given number of quanta per bit.
-///
-/// With a rate that is not in the table, the controller stays off the bus: Send returns -1.
-///
-/// Receiving. The interrupt moves frames from the receive FIFO (64 bytes: 21 frames without data, 5 with 8 bytes) into
-/// the queue at CO_CAN_SJA1000.Frames, from which the loop reads them, without a lock. A frame that arrives while
-/// either is full is lost: COCanSja1000Lost() counts it, and the node reports CO_CAN_OVERRUN.
+/// The receive FIFO has 64 bytes: 21 frames without data, 5 with 8 bytes.
 ///
 /// The driver computes the two acceptance filters from the identifiers that the node receives. They compare 11 bits of
 /// each identifier and pass further frames, which the node ignores. Filters can be written in reset mode only: if a
 /// change on the bus adds an identifier that does not pass yet, the driver leaves the bus for a moment, when it is
 /// idle. A frame of another node that begins then is lost.
 ///
-/// Sending. There is one transmit buffer; see transmit.hpp. While another node delays the frame in it, a frame of
-/// higher priority replaces it, and the replaced one is kept in memory and sent later. A frame waits for at most one
-/// frame of lower priority of this node, the one on the wire; frames of one identifier keep their order, and no frame
-/// overtakes the boot-up message. docs/drivers/sja1000.md has the two exceptions.
+/// There is one transmit buffer. While another node delays the frame in it, a frame of higher priority replaces it, and
+/// the replaced one is kept in memory and sent later.
 ///
-/// Bus-off. CO_CAN_SJA1000.Recovery selects the rule: by the application (COIfCanReset(), which every NMT reset calls,
-/// or Enable), or automatic. Send returns -1 until the controller is on the bus again. The node reports CO_CAN_BUS_OFF,
-/// and CO_CAN_RECOVERED when the controller is on the bus again; frames that were accepted before are sent then, after
-/// a recovery by Reset or Enable they are discarded. Read detects CO_CAN_PASSIVE, and CO_CAN_RECOVERED after it.
-///
-/// Reset and Close abort all frames that wait for transmission. A frame that is on the wire is completed.
-///
-/// Context: the loop, and one interrupt on the same CPU that calls COCanSja1000Interrupt(). The access functions must
-/// not be interrupted by it while they select a register with several accesses.
-/// Owner: context and frames are the caller's and must live as long as the node; one node for each context.
+/// COCanSja1000Interrupt() must not interrupt the access functions while they select a register with several accesses.
 #ifndef CO_CAN_SJA1000_H_
 #define CO_CAN_SJA1000_H_
 
@@ -63,14 +45,11 @@ typedef struct CO_CAN_SJA1000_RATE_T {
 } CO_CAN_SJA1000_RATE;
 
 /// \cond internal
-#define CO_CAN_SJA1000_SEGMENT2(quanta) (((quanta) + 4u) / 8u)
-#define CO_CAN_SJA1000_SEGMENT1(quanta) ((quanta)-1u - CO_CAN_SJA1000_SEGMENT2(quanta))
-#define CO_CAN_SJA1000_TIMING(clock, baud, quanta, shift)                                                        \
-  (((uint32_t)((clock) / (2u * (baud) * (quanta))) - 1u) | ((CO_CAN_SJA1000_SEGMENT2(quanta) - 1u) << (shift)) | \
-   (((CO_CAN_SJA1000_SEGMENT1(quanta) - 1u) | ((CO_CAN_SJA1000_SEGMENT2(quanta) - 1u) << 4)) << 16))
-#define CO_CAN_SJA1000_FITS(clock, baud, quanta, prescaler)                                                         \
-  ((((quanta) >= 8 && (quanta) <= 10) || ((quanta) >= 14 && (quanta) <= 19)) && (clock) >= 2 * (baud) * (quanta) && \
-   (clock) % (2 * (baud) * (quanta)) == 0 && (clock) / (2 * (baud) * (quanta)) <= (prescaler))
+#define CO_CAN_SJA1000_TIMING(clock, baud, quanta, shift)                                                \
+  (((uint32_t)((clock) / (2u * (baud) * (quanta))) - 1u) | ((CO_CAN_SEGMENT2(quanta) - 1u) << (shift)) | \
+   (((CO_CAN_SEGMENT1(quanta) - 1u) | ((CO_CAN_SEGMENT2(quanta) - 1u) << 4)) << 16))
+#define CO_CAN_SJA1000_FITS(clock, baud, quanta, prescaler) \
+  (CO_CAN_QUANTA_FIT(quanta, 19) && CO_CAN_IS_EXACT(clock, 2 * (baud), quanta, prescaler))
 
 // Frames that wait for transmission, for transmit.hpp: one transmit buffer.
 typedef struct CO_SJA1000_TRANSMIT_T {
