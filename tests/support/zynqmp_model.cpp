@@ -15,8 +15,17 @@ std::vector<ZynqmpModel*>& models() {
   return all;
 }
 
-ZynqmpModel& model_at(const volatile std::uint32_t* registers) {
-  return **std::find_if(models().begin(), models().end(), [&](ZynqmpModel* m) { return m->address() == registers; });
+std::uintptr_t offset_of(ZynqmpModel& model, std::uintptr_t address) {
+  return address - reinterpret_cast<std::uintptr_t>(model.address());
+}
+
+ZynqmpModel& model_at(std::uintptr_t address) {
+  return **std::find_if(models().begin(), models().end(),
+                        [address](ZynqmpModel* m) { return offset_of(*m, address) < 0x100; });
+}
+
+Register register_at(ZynqmpModel& model, std::uintptr_t address) {
+  return static_cast<Register>(offset_of(model, address));
 }
 
 unsigned word_of(Register which, Register group) {
@@ -197,15 +206,17 @@ void ZynqmpModel::raise_lasting() {
 
 }  // namespace test
 
-namespace co::zynqmp {
+extern "C" {
 
-// Register accesses that replace those of the driver.
-std::uint32_t read(const volatile std::uint32_t* registers, Register which) {
-  return test::model_at(registers).read(which);
+// Register accesses of the driver.
+std::uint32_t lexican_model_read(std::uintptr_t address) {
+  test::ZynqmpModel& model = test::model_at(address);
+  return model.read(test::register_at(model, address));
 }
 
-void write(volatile std::uint32_t* registers, Register which, std::uint32_t value) {
-  test::model_at(registers).write(which, value);
+void lexican_model_write(std::uintptr_t address, std::uint32_t value) {
+  test::ZynqmpModel& model = test::model_at(address);
+  model.write(test::register_at(model, address), value);
 }
 
-}  // namespace co::zynqmp
+}  // extern "C"

@@ -262,14 +262,14 @@ TEST_CASE("ZynqMP CAN: frames lost by a full queue or FIFO are reported once bef
   }
   node.interrupt();
   CHECK(COCanZynqmpLost(&node.can) == 3);
-  CHECK(node.read() == "20000004#0001000000000000");
+  CHECK(node.read() == "20000204#0001000000000000");
   CHECK(node.read() == "100#");
   for (unsigned n = 0; n < 66; ++n) {
     node.model.receive(0x200 + n);
   }
   node.interrupt();
   CHECK(COCanZynqmpLost(&node.can) == 3 + 63 + 1);
-  CHECK(node.read() == "20000004#0001000000000000");
+  CHECK(node.read() == "20000204#0001000000000000");
   CHECK(node.read() == "101#");
   CHECK(node.read() == "102#");
   CHECK(node.read() == "103#");
@@ -287,10 +287,10 @@ TEST_CASE("ZynqMP CAN: error passive and its end are reported once each") {
   Controller node;
   CHECK(node.read() == "0");
   node.model.set_state(co::zynqmp::error_passive);
-  CHECK(node.read() == "20000004#0030000000000000");
+  CHECK(node.read() == "20000204#0030000000000000");
   CHECK(node.read() == "0");
   node.model.set_state(co::zynqmp::error_active);
-  CHECK(node.read() == "20000004#0040000000000000");
+  CHECK(node.read() == "20000204#0040000000000000");
   CHECK(node.read() == "0");
 }
 
@@ -303,7 +303,7 @@ TEST_CASE("ZynqMP CAN: after bus-off the controller is off the bus until a reset
   CHECK_FALSE(node.model.interrupt());
   CHECK_FALSE(node.model.on_bus());
   CHECK(node.send("080#") == -1);
-  CHECK(node.read() == "20000040#0000000000000000");
+  CHECK(node.read() == "20000240#0000000000000000");
   CHECK(node.read() == "0");
   ZynqmpCanDriver.Reset(&node.can);
   CHECK(node.model.on_bus());
@@ -311,7 +311,7 @@ TEST_CASE("ZynqMP CAN: after bus-off the controller is off the bus until a reset
   node.model.set_state(0);  // waiting for the bus
   CHECK(node.read() == "0");
   node.model.set_state(co::zynqmp::error_active);
-  CHECK(node.read() == "20000100#0000000000000000");
+  CHECK(node.read() == "20000300#0000000000000000");
   CHECK(node.read() == "0");
   CHECK(node.accepts("080#"));
   node.drain();
@@ -322,10 +322,10 @@ TEST_CASE("ZynqMP CAN: a recovery from bus-off to error passive reports both and
   Controller node;
   node.model.go_bus_off();
   node.interrupt();
-  CHECK(node.read() == "20000040#0000000000000000");
+  CHECK(node.read() == "20000240#0000000000000000");
   ZynqmpCanDriver.Reset(&node.can);
   node.model.set_state(co::zynqmp::error_passive);
-  CHECK(node.read() == "20000104#0030000000000000");
+  CHECK(node.read() == "20000304#0030000000000000");
   node.model.go_bus_off();
   node.interrupt();
   ZynqmpCanDriver.Enable(&node.can, 125000);
@@ -340,7 +340,7 @@ TEST_CASE("ZynqMP CAN: frames received before bus-off are read and an overrun is
   }
   node.model.go_bus_off();
   node.interrupt();
-  CHECK(node.read() == "20000044#0001000000000000");
+  CHECK(node.read() == "20000244#0001000000000000");
   CHECK(node.read() == "100#");
 }
 
@@ -427,11 +427,11 @@ TEST_CASE("ZynqMP CAN: a reset in bus-off discards all frames and keeps filters 
   node.model.receive(0x123);
   node.model.go_bus_off();
   node.interrupt();
-  CHECK(node.read() == "20000040#0000000000000000");
+  CHECK(node.read() == "20000240#0000000000000000");
   ZynqmpCanDriver.Reset(&node.can);
   CHECK_FALSE(node.model.interrupt());
   CHECK(node.model.waiting() == 0);
-  CHECK(node.read() == "20000100#0000000000000000");
+  CHECK(node.read() == "20000300#0000000000000000");
   CHECK(node.read() == "0");
   CHECK(node.model.value(Register::prescaler) == 2);
   CHECK(node.model.value(Register::bit_timing) == 0x9C);

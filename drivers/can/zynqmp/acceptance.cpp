@@ -14,28 +14,18 @@ constexpr std::uint32_t extended_bits = standard_bits | (0x3FFFFU << extension_s
 // Returns the filter that only one identifier passes.
 AcceptanceFilter exactly(std::uint32_t identifier) {
   const bool is_extended = (identifier & CO_IF_FRM_EXT) != 0;
-  return {is_extended ? extended_bits : standard_bits, identifier_word(identifier)};
-}
-
-// Returns the narrowest filter that accepts everything that either filter accepts.
-AcceptanceFilter both(const AcceptanceFilter& a, const AcceptanceFilter& b) {
-  const std::uint32_t mask = a.mask & b.mask & ~(a.word ^ b.word);
-  return {mask, a.word & mask};
+  return {identifier_word(identifier), is_extended ? extended_bits : standard_bits};
 }
 
 // Returns the number of identifiers that pass a filter.
 std::int32_t width(const AcceptanceFilter& filter) {
   const bool is_standard = (filter.mask & extended) != 0 && (filter.word & extended) == 0;
-  std::int32_t ids = 1;
-  for (std::uint32_t open = (is_standard ? standard_bits : extended_bits) & ~filter.mask; open != 0; open &= open - 1) {
-    ids *= 2;
-  }
-  return ids;
+  return std::int32_t{1} << mask_filters::count_bits((is_standard ? standard_bits : extended_bits) & ~filter.mask);
 }
 
 // Returns the number of identifiers that pass a merged filter, but neither of its parts; negative if the parts overlap.
 std::int32_t added_by_merging(const AcceptanceFilter& a, const AcceptanceFilter& b) {
-  return width(both(a, b)) - width(a) - width(b);
+  return width(mask_filters::both(a, b)) - width(a) - width(b);
 }
 
 // Merges the pair of filters that adds the fewest other identifiers; duplicates are merged first. Called with one
@@ -56,7 +46,7 @@ void merge_two(Acceptance& all) {
       best = pair;
     }
   }
-  all.filter[best.first] = both(all.filter[best.first], all.filter[best.second]);
+  all.filter[best.first] = mask_filters::both(all.filter[best.first], all.filter[best.second]);
   all.filter[best.second] = all.filter[--all.number];
 }
 

@@ -6,17 +6,15 @@
 
 #include <cstdint>
 
+#include "../mask_filters.hpp"
+
 /// Internals of the driver co_can_zynqmp.h. Not for applications.
 namespace co::zynqmp {
 
 inline constexpr unsigned filters_at_most = 4;  ///< acceptance filters of a controller
 
-/// Filter in the coding of the controller's registers. A frame passes if its identifier equals the word in all bits of
-/// the mask.
-struct AcceptanceFilter {
-  std::uint32_t mask;  ///< AFMR: bits that are compared
-  std::uint32_t word;  ///< AFIR: their values
-};
+/// Filter in the coding of the controller's registers (AFIR, AFMR).
+using AcceptanceFilter = mask_filters::Filter<std::uint32_t>;
 
 /// The acceptance filters of a controller.
 struct Acceptance {

@@ -3,39 +3,21 @@
 
 #include <cstdint>
 
-#include "../atomic.hpp"
 #include "acceptance.hpp"
 #include "registers.hpp"
 
 namespace co::zynqmp {
 namespace {
 
-constexpr std::int16_t one_frame = sizeof(CO_IF_FRM);  // result of Read and Send: a frame was read or accepted
 constexpr unsigned fifo_frames = 64;
-constexpr std::uint8_t bytes_at_most = 8;
-constexpr std::uint32_t standard_ids = 0x7FF;
 
 // Interrupts that are always enabled. all_sent is added only while a frame is being sent: it stays set while the FIFO
 // is empty.
 constexpr std::uint32_t always_enabled = received | receive_overflow | bus_off | woken;
 
-// Error classes and details for the node, in the coding of SocketCAN.
-constexpr std::uint32_t class_controller = 0x004;
-constexpr std::uint32_t class_bus_off = 0x040;
-constexpr std::uint32_t class_restarted = 0x100;
-constexpr std::uint8_t detail_overflow = 0x01;
-constexpr std::uint8_t detail_passive = 0x30;
-constexpr std::uint8_t detail_active = 0x40;
-
-// Values of CO_CAN_ZYNQMP.Told: the state last reported to the node.
-constexpr std::uint8_t state_active = 0;
-constexpr std::uint8_t state_passive = 1;
-constexpr std::uint8_t state_bus_off = 2;
-
-CO_CAN_ZYNQMP& controller(void* ctx) { return *static_cast<CO_CAN_ZYNQMP*>(ctx); }
-
-using atomic::load;
-using atomic::store;
+using report::load;
+using report::State;
+using report::store;
 
 bool is_set(const CO_CAN_ZYNQMP& can, std::uint32_t interrupt) {
   return (read(can.Registers, Register::interrupt_status) & interrupt) != 0;
@@ -65,23 +47,13 @@ std::uint32_t identifier_of(std::uint32_t word) {
 CO_IF_FRM read_frame(const CO_CAN_ZYNQMP& can) {
   CO_IF_FRM frame{};
   frame.Identifier = identifier_of(read(can.Registers, Register::receive));
-  const std::uint32_t dlc = read(can.Registers, Register::receive + 1) >> dlc_shift;
-  frame.DLC = dlc < bytes_at_most ? static_cast<std::uint8_t>(dlc) : bytes_at_most;
+  frame.DLC = transmit::length_of(read(can.Registers, Register::receive + 1) >> dlc_shift);
   unpack(read(can.Registers, Register::receive + 2), frame.Data);
   unpack(read(can.Registers, Register::receive + 3), frame.Data + 4);
   return frame;
 }
 
 // Joining and leaving the bus -----------------------------------------------------------------------------------------
-
-const CO_CAN_ZYNQMP_RATE* find_rate(const CO_CAN_ZYNQMP& can, std::uint32_t baud) {
-  for (unsigned n = 0; n < can.RateNum; ++n) {
-    if (can.Rates[n].Baud == baud) {
-      return &can.Rates[n];
-    }
-  }
-  return nullptr;
-}
 
 // Disables the interrupts. The read-back ensures that the write has reached the controller, so none follows.
 void disable_interrupts(CO_CAN_ZYNQMP& can) {
@@ -96,14 +68,6 @@ void await_status(const CO_CAN_ZYNQMP& can, std::uint32_t bit, std::uint32_t val
   }
 }
 
-// Resets the controller, which then is in configuration mode with its interrupts disabled.
-void leave_bus(CO_CAN_ZYNQMP& can) {
-  disable_interrupts(can);
-  write(can.Registers, Register::software_reset, soft_reset);
-  await_status(can, is_configuring, is_configuring);
-  can.Rate = nullptr;
-}
-
 // Discards received frames and counters. The interrupts must be disabled.
 void discard_received(CO_CAN_ZYNQMP& can) {
   for (unsigned n = 0; n < fifo_frames && is_set(can, received); ++n) {
@@ -112,8 +76,7 @@ void discard_received(CO_CAN_ZYNQMP& can) {
   }
   clear_interrupts(can, receive_overflow);
   static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
-  can.Overflows = 0;
-  can.ReportedLost = 0;
+  report::restart(can.Report);
 }
 
 // Enables the interrupts, with all_sent only while a frame is being sent.
@@ -131,27 +94,12 @@ void set_filters(const CO_CAN_ZYNQMP& can) {
   write(can.Registers, Register::filters_used, (1U << can.FilterNum) - 1);
 }
 
-void join_bus(CO_CAN_ZYNQMP& can, const CO_CAN_ZYNQMP_RATE& rate) {
-  leave_bus(can);
-  discard_received(can);
-  can.Rate = &rate;
-  can.IsBusOff = 0;
-  can.IsSending = 0;
-  write(can.Registers, Register::prescaler, rate.Prescaler);
-  write(can.Registers, Register::bit_timing, rate.Timing);
-  write(can.Registers, Register::mode_select, can.Loopback ? loopback_mode : 0);
-  set_filters(can);
-  enable_interrupts(can);
-  write(can.Registers, Register::software_reset, can_enable);
-}
-
 // Sending -------------------------------------------------------------------------------------------------------------
 
 std::uint32_t word_of(const CO_IF_FRM& frame) {
   const std::uint32_t id = frame.Identifier & CO_IF_FRM_ID;
   const bool remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
-  // Truncated to 11 bits a longer identifier would be another message, at worst an NMT command.
-  if ((frame.Identifier & CO_IF_FRM_EXT) == 0 && id <= standard_ids) {
+  if (!transmit::is_extended(frame.Identifier)) {
     return (id << standard_shift) | (remote ? standard_remote : 0);
   }
   return identifier_word(id | CO_IF_FRM_EXT) | standard_remote | (remote ? extended_remote : 0);
@@ -163,9 +111,8 @@ std::uint32_t word_at(const std::uint8_t* bytes) {
 }
 
 void write_frame(const CO_CAN_ZYNQMP& can, Register buffer, std::uint32_t word, const CO_IF_FRM& frame) {
-  const std::uint32_t dlc = frame.DLC < bytes_at_most ? frame.DLC : bytes_at_most;
   write(can.Registers, buffer, word);
-  write(can.Registers, buffer + 1, dlc << dlc_shift);
+  write(can.Registers, buffer + 1, std::uint32_t{transmit::length_of(frame)} << dlc_shift);
   write(can.Registers, buffer + 2, word_at(frame.Data));
   write(can.Registers, buffer + 3, word_at(frame.Data + 4));
 }
@@ -178,12 +125,6 @@ bool is_sending(CO_CAN_ZYNQMP& can) {
   return can.IsSending != 0;
 }
 
-// Returns true for the boot-up message; no other message may precede it. [301:7.3.2.2.1]
-bool is_boot_up(const CO_IF_FRM& frame) {
-  constexpr std::uint32_t error_control = 0x700;
-  return (frame.Identifier & ~0x7FU) == error_control && frame.DLC == 1 && frame.Data[0] == 0;
-}
-
 // Clears all_sent after writing the frame, because the flag is set again while the FIFO is empty. A frame that was sent
 // before that is detected by the flag `sent`.
 void send_by_fifo(CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame) {
@@ -194,7 +135,7 @@ void send_by_fifo(CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame
     return;
   }
   can.IsSending = 1;
-  can.SendingWord = is_boot_up(frame) ? 0 : word;
+  can.SendingWord = transmit::is_boot_up(frame) ? 0 : word;
   enable_interrupts(can);
 }
 
@@ -210,141 +151,96 @@ void send_by_priority_buffer(const CO_CAN_ZYNQMP& can, std::uint32_t word, const
   write_frame(can, Register::transmit_first, word, frame);
 }
 
-bool try_send(CO_CAN_ZYNQMP& can, const CO_IF_FRM& frame) {
-  const std::uint32_t word = word_of(frame);
-  if ((read(can.Registers, Register::status) & first_is_full) != 0) {
+struct Port {
+  using Can = CO_CAN_ZYNQMP;
+
+  static bool is_bus_off(const Can& can) { return load(can.IsBusOff) != 0; }
+
+  static State poll(const Can& can) {
+    if (is_bus_off(can)) {
+      return State::bus_off;
+    }
+    const std::uint32_t status = read(can.Registers, Register::status);
+    if ((status & error_active) == 0) {
+      return static_cast<State>(can.Report.Reported);  // on its way to the bus, or to bus-off
+    }
+    return static_cast<State>(status >> passive_shift & 1);
+  }
+
+  static CO_CAN_ERROR_COUNTERS errors(const Can& can) {
+    const std::uint32_t errors = read(can.Registers, Register::error_counters);
+    return {static_cast<std::uint8_t>(errors), static_cast<std::uint8_t>(errors >> receive_errors_shift)};
+  }
+
+  static bool accept(Can& can, const CO_IF_FRM& frame) {
+    const std::uint32_t word = word_of(frame);
+    if ((read(can.Registers, Register::status) & first_is_full) != 0) {
+      return false;
+    }
+    if (!is_sending(can)) {
+      send_by_fifo(can, word, frame);
+      return true;
+    }
+    if (may_overtake(can, word)) {
+      send_by_priority_buffer(can, word, frame);
+      return true;
+    }
     return false;
   }
-  if (!is_sending(can)) {
-    send_by_fifo(can, word, frame);
-    return true;
-  }
-  if (may_overtake(can, word)) {
-    send_by_priority_buffer(can, word, frame);
-    return true;
-  }
-  return false;
-}
 
-// Reporting -----------------------------------------------------------------------------------------------------------
-
-std::uint8_t state_of(const CO_CAN_ZYNQMP& can) {
-  if (load(can.IsBusOff) != 0) {
-    return state_bus_off;
+  // Keeps the frame that is being sent: it may be the answer to the request that caused the reset.
+  static void discard(Can& can) {
+    disable_interrupts(can);
+    discard_received(can);
+    enable_interrupts(can);
   }
-  switch (read(can.Registers, Register::status) & error_state) {
-    case error_active: return state_active;
-    case error_passive: return state_passive;
-    default: return can.ReportedState;  // on its way to the bus, or to bus-off
-  }
-}
 
-// Adds a change of the controller's state to an error frame. The end of bus-off is a restart; a return from error
-// passive is reported as error active.
-void report_state(CO_CAN_ZYNQMP& can, std::uint8_t state, CO_IF_FRM& report) {
-  if (state == state_bus_off) {
-    report.Identifier |= class_bus_off;
-  } else if (can.ReportedState == state_bus_off) {
-    report.Identifier |= class_restarted;
+  // Resets the controller, which then is in configuration mode with its interrupts disabled.
+  static void leave_bus(Can& can) {
+    disable_interrupts(can);
+    write(can.Registers, Register::software_reset, soft_reset);
+    await_status(can, is_configuring, is_configuring);
+    can.Rate = nullptr;
   }
-  if (state == state_passive || (state == state_active && can.ReportedState == state_passive)) {
-    report.Identifier |= class_controller;
-    report.Data[1] = state == state_passive ? detail_passive : detail_active;
-  }
-  can.ReportedState = state;
-}
 
-// Adds lost frames to an error frame; they are reported as an overflow.
-void report_lost(CO_CAN_ZYNQMP& can, std::uint32_t lost, CO_IF_FRM& report) {
-  report.Identifier |= class_controller;
-  report.Data[1] = static_cast<std::uint8_t>(report.Data[1] | detail_overflow);
-  can.ReportedLost = lost;
-}
-
-// Fills an error frame with the changes since the last report. Returns false if there are none.
-bool report_events(CO_CAN_ZYNQMP& can, CO_IF_FRM& report) {
-  const std::uint32_t lost = COCanZynqmpLost(&can);
-  const std::uint8_t state = state_of(can);
-  if (lost == can.ReportedLost && state == can.ReportedState) {
-    return false;
-  }
-  report = {CO_IF_FRM_ERROR, {}, bytes_at_most};
-  if (state != can.ReportedState) {
-    report_state(can, state, report);
-  }
-  if (lost != can.ReportedLost) {
-    report_lost(can, lost, report);
-  }
-  return true;
-}
-
-// The driver ----------------------------------------------------------------------------------------------------------
-
-void init(void* ctx) { leave_bus(controller(ctx)); }
-
-void enable(void* ctx, std::uint32_t baud) {
-  CO_CAN_ZYNQMP& can = controller(ctx);
-  const CO_CAN_ZYNQMP_RATE* const rate = find_rate(can, baud);
-  can.ReportedState = state_active;
-  if (rate == nullptr) {
+  static void join_bus(Can& can, const CO_CAN_ZYNQMP_RATE& rate) {
     leave_bus(can);
-    return;
-  }
-  join_bus(can, *rate);
-}
-
-std::int16_t read_driver(void* ctx, CO_IF_FRM* frm) {
-  CO_CAN_ZYNQMP& can = controller(ctx);
-  if (can.Rate == nullptr) {
-    return 0;
-  }
-  return report_events(can, *frm) || CORingGet(&can.Received, frm) ? one_frame : std::int16_t{0};
-}
-
-std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
-  CO_CAN_ZYNQMP& can = controller(ctx);
-  if (can.Rate == nullptr || load(can.IsBusOff) != 0) {
-    return -1;
-  }
-  return try_send(can, *frm) ? one_frame : std::int16_t{0};
-}
-
-// Keeps the frame that is being sent: it may be the answer to the request that caused the reset.
-void reset(void* ctx) {
-  CO_CAN_ZYNQMP& can = controller(ctx);
-  if (can.Rate == nullptr) {
-    return;
-  }
-  if (can.IsBusOff != 0) {
-    join_bus(can, *can.Rate);
-    return;
-  }
-  disable_interrupts(can);
-  discard_received(can);
-  enable_interrupts(can);
-}
-
-void close(void* ctx) { leave_bus(controller(ctx)); }
-
-void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
-  CO_CAN_ZYNQMP& can = controller(ctx);
-  const Acceptance acceptance = acceptance_of(ids, num);
-  can.FilterNum = acceptance.number;
-  for (unsigned n = 0; n < acceptance.number; ++n) {
-    can.FilterMask[n] = acceptance.filter[n].mask;
-    can.FilterId[n] = acceptance.filter[n].word;
-  }
-  if (can.Rate != nullptr) {
+    discard_received(can);
+    can.Rate = &rate;
+    can.IsBusOff = 0;
+    can.IsSending = 0;
+    write(can.Registers, Register::prescaler, rate.Prescaler);
+    write(can.Registers, Register::bit_timing, rate.Timing);
+    write(can.Registers, Register::mode_select, can.Loopback ? loopback_mode : 0);
     set_filters(can);
+    enable_interrupts(can);
+    write(can.Registers, Register::software_reset, can_enable);
   }
-}
+
+  static void init(Can& can) { leave_bus(can); }
+
+  static void filter(Can& can, const std::uint32_t* ids, std::uint16_t num) {
+    const Acceptance acceptance = acceptance_of(ids, num);
+    can.FilterNum = acceptance.number;
+    for (unsigned n = 0; n < acceptance.number; ++n) {
+      can.FilterMask[n] = acceptance.filter[n].mask;
+      can.FilterId[n] = acceptance.filter[n].word;
+    }
+    if (can.Rate != nullptr) {
+      set_filters(can);
+    }
+  }
+};
+
+using Driver = controller::Driver<Port>;
 
 }  // namespace
 }  // namespace co::zynqmp
 
+using namespace co;
 using namespace co::zynqmp;
 
-const CO_IF_CAN_DRV_EX ZynqmpCanDriver = {init, enable, read_driver, send, reset, close, filter, CONodeCanReport};
+const CO_IF_CAN_DRV_EX ZynqmpCanDriver = zynqmp::Driver::table;
 
 extern "C" {
 
@@ -360,7 +256,7 @@ void COCanZynqmpInterrupt(CO_CAN_ZYNQMP* can) {
   }
   const std::uint32_t status = read(can->Registers, Register::interrupt_status);
   if ((status & receive_overflow) != 0) {
-    store(can->Overflows, can->Overflows + 1);
+    report::count_overflow(can->Report);
   }
   if ((status & bus_off) != 0) {
     write(can->Registers, Register::software_reset, 0);  // no automatic recovery
@@ -379,8 +275,6 @@ void COCanZynqmpSleep(CO_CAN_ZYNQMP* can) {
   }
 }
 
-uint32_t COCanZynqmpLost(const CO_CAN_ZYNQMP* can) {
-  return can == nullptr ? 0 : load(can->Overflows) + CORingLost(&can->Received);
-}
+uint32_t COCanZynqmpLost(const CO_CAN_ZYNQMP* can) { return zynqmp::Driver::lost(can); }
 
 }  // extern "C"

@@ -43,6 +43,7 @@
 #ifndef CO_CAN_ZYNQMP_H_
 #define CO_CAN_ZYNQMP_H_
 
+#include "../co_can_controller.h"
 #include "co_if_can.h"
 #include "co_ring.h"
 
@@ -57,27 +58,21 @@ typedef struct CO_CAN_ZYNQMP_RATE_T {
   uint16_t Timing;     ///< value of BTR: the segments and the jump width, each less 1
 } CO_CAN_ZYNQMP_RATE;
 
-/// \cond internal
-#define CO_CAN_ZYNQMP_SEGMENT2(quanta) (((quanta) + 4u) / 8u)
-#define CO_CAN_ZYNQMP_SEGMENT1(quanta) ((quanta)-1u - CO_CAN_ZYNQMP_SEGMENT2(quanta))
-/// \endcond
-
 /// \name Bit timing in C: \a clock in Hz, \a baud in bit/s, and the number of quanta in a bit, 8…10 or 14…20
 /// \{
 
 /// Initialises a CO_CAN_ZYNQMP_RATE. The sample point is as near to 87.5 % as these quanta allow.
 /// Does not compile if the macro …_FITS() for the same values is false, or no constant.
-#define CO_CAN_ZYNQMP_RATE_OF(clock, baud, quanta)                                                               \
-  {                                                                                                              \
-    (baud) * CO_REQUIRED(CO_CAN_ZYNQMP_RATE_FITS(clock, baud, quanta)),                                          \
-        (uint16_t)((clock) / ((baud) * (quanta)) - 1u),                                                          \
-        (uint16_t)(((CO_CAN_ZYNQMP_SEGMENT2(quanta) - 1u) << 7) | ((CO_CAN_ZYNQMP_SEGMENT2(quanta) - 1u) << 4) | \
-                   (CO_CAN_ZYNQMP_SEGMENT1(quanta) - 1u))                                                        \
+#define CO_CAN_ZYNQMP_RATE_OF(clock, baud, quanta)                                                 \
+  {                                                                                                \
+    (baud) * CO_REQUIRED(CO_CAN_ZYNQMP_RATE_FITS(clock, baud, quanta)),                            \
+        (uint16_t)((clock) / ((baud) * (quanta)) - 1u),                                            \
+        (uint16_t)(((CO_CAN_SEGMENT2(quanta) - 1u) << 7) | ((CO_CAN_SEGMENT2(quanta) - 1u) << 4) | \
+                   (CO_CAN_SEGMENT1(quanta) - 1u))                                                 \
   }
 /// True if this timing is exact, its sample point is allowed by CiA 301, and the controller supports it.
-#define CO_CAN_ZYNQMP_RATE_FITS(clock, baud, quanta)                                                            \
-  ((((quanta) >= 8 && (quanta) <= 10) || ((quanta) >= 14 && (quanta) <= 20)) && (clock) >= (baud) * (quanta) && \
-   (clock) % ((baud) * (quanta)) == 0 && (clock) / ((baud) * (quanta)) <= 256)
+#define CO_CAN_ZYNQMP_RATE_FITS(clock, baud, quanta) \
+  (CO_CAN_QUANTA_FIT(quanta, 20) && CO_CAN_IS_EXACT(clock, baud, quanta, 256))
 /// \}
 
 /// A controller. Initialise it with zero, then set the members up to Loopback; the driver owns the others.
@@ -92,14 +87,12 @@ typedef struct CO_CAN_ZYNQMP_T {
   /// \cond internal
   CO_RING Received;
   const CO_CAN_ZYNQMP_RATE* Rate;  // null: off the bus
-  uint32_t Overflows;              // overflows of the receive FIFO; written by the interrupt
-  uint8_t IsBusOff;                // written by the interrupt
-  uint8_t ReportedState;           // state last reported to the node: error active, error passive, or bus-off
-  uint8_t IsSending;               // a frame is in the transmit FIFO
-  uint8_t FilterNum;               // 0: all frames are received
-  uint32_t SendingWord;            // identifier of that frame, in the coding of the controller; 0: no frame may
-                                   // overtake it
-  uint32_t ReportedLost;           // lost frames already reported to the node
+  CO_CAN_REPORT Report;
+  uint8_t IsBusOff;      // written by the interrupt
+  uint8_t IsSending;     // a frame is in the transmit FIFO
+  uint8_t FilterNum;     // 0: all frames are received
+  uint32_t SendingWord;  // identifier of that frame, in the coding of the controller; 0: no frame may
+                         // overtake it
   uint32_t FilterMask[4];
   uint32_t FilterId[4];
   /// \endcond

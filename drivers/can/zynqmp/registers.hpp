@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file registers.hpp
-/// The registers of the CAN controllers of Zynq-7000 and Zynq UltraScale+ (UG585, UG1085), and the only functions that
-/// access them, so that a test can replace them by a model.
+/// The registers of the CAN controllers of Zynq-7000 and Zynq UltraScale+ (UG585, UG1085).
 #ifndef CO_DRIVERS_ZYNQMP_REGISTERS_HPP_
 #define CO_DRIVERS_ZYNQMP_REGISTERS_HPP_
 
 #include <cstdint>
+
+#include "../controller.hpp"
 
 namespace co::zynqmp {
 
@@ -15,6 +16,7 @@ enum class Register : std::uint8_t {
   mode_select = 0x04,       ///< (MSR)
   prescaler = 0x08,         ///< (BRPR)
   bit_timing = 0x0C,        ///< (BTR)
+  error_counters = 0x10,    ///< (ECR)
   status = 0x18,            ///< (SR)
   interrupt_status = 0x1C,  ///< (ISR)
   interrupt_enable = 0x20,  ///< (IER)
@@ -43,12 +45,14 @@ inline constexpr std::uint32_t sleep_mode = 1U << 0;     ///< sleep until a fram
 inline constexpr std::uint32_t loopback_mode = 1U << 1;  ///< self-test off the bus
 /// \}
 
+inline constexpr unsigned receive_errors_shift = 8;  ///< Register::error_counters: REC behind the 8 bits of TEC
+
 /// \name Bits of Register::status
 /// \{
 inline constexpr std::uint32_t is_configuring = 1U << 0;  ///< configuration mode
-inline constexpr std::uint32_t error_state = 3U << 7;     ///< mask of the error state
-inline constexpr std::uint32_t error_active = 1U << 7;    ///< value of the error state: error active
-inline constexpr std::uint32_t error_passive = 3U << 7;   ///< value of the error state: error passive
+inline constexpr std::uint32_t error_active = 1U << 7;    ///< on the bus: error active, if passive_shift is 0, too
+inline constexpr std::uint32_t passive_shift = 8;         ///< position of the bit for error passive
+inline constexpr std::uint32_t error_passive = 3U << 7;   ///< on the bus: error passive
 inline constexpr std::uint32_t first_is_full = 1U << 10;  ///< the high priority transmit buffer is in use
 inline constexpr std::uint32_t filters_busy = 1U << 11;   ///< the acceptance filters must not be written yet
 /// \}
@@ -76,10 +80,14 @@ inline constexpr std::uint32_t extended_remote = 1U << 0;   ///< RTR of a frame 
 inline constexpr std::uint32_t dlc_shift = 28;              ///< position of the DLC in its word
 /// \}
 
-/// Reads a register of the controller at \a registers.
-std::uint32_t read(const volatile std::uint32_t* registers, Register which);
-/// Writes a register of the controller at \a registers.
-void write(volatile std::uint32_t* registers, Register which, std::uint32_t value);
+/// Reads a register of the controller at \a base.
+inline std::uint32_t read(const volatile std::uint32_t* base, Register which) {
+  return registers::read(base[static_cast<unsigned>(which) / 4]);
+}
+/// Writes a register of the controller at \a base.
+inline void write(volatile std::uint32_t* base, Register which, std::uint32_t value) {
+  registers::write(base[static_cast<unsigned>(which) / 4], value);
+}
 
 }  // namespace co::zynqmp
 
