@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Transmission through three buffers, and reception.
-#include "../report.hpp"
+#include "../controller.hpp"
 #include "../transmit.hpp"
 #include "mcp2515_controller.hpp"
 

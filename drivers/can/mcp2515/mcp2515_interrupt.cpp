@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The work of the interrupt, and the use of SPI by loop and interrupt.
-#include "../report.hpp"
+#include "../controller.hpp"
 #include "mcp2515_controller.hpp"
 
 namespace co::mcp2515 {
