@@ -13,7 +13,7 @@
 #include "lexican/detail/needs.h"
 
 #if defined(__cplusplus) && !defined(CO_DATA_INTEGER)
-#include "lexican/data.hpp"
+#include "lexican/detail/data.hpp"
 #endif
 
 #ifdef __cplusplus
@@ -186,8 +186,8 @@ CO_ERR COObjTypeExReset(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t p
 
 #if !defined(__cplusplus) || defined(CO_DATA_INTEGER)
 /// Address of the object's data, or the value itself (flag D). In C++ it is a class of the same size and layout
-/// (lexican/data.hpp) that converts to and from addresses and integers, so that tables can be checked at compile time.
-/// With CO_DATA_INTEGER defined it is the plain integer in C++, too, without that check.
+/// (lexican/detail/data.hpp) that converts to and from addresses and integers, so that tables can be checked at compile
+/// time. With CO_DATA_INTEGER defined it is the plain integer in C++, too, without that check.
 typedef uintptr_t CO_DATA;
 #endif
 

@@ -46,12 +46,12 @@
 #include "co_types.h"
 #include "lexican/detail/needs.h"
 
-/// Memory of a parameter group. In C++ it is a class of the same size and layout (lexican/address.hpp) that can be
-/// initialised with the address of any object and is used like a uint8_t *; define CO_DATA_INTEGER to get the plain
+/// Memory of a parameter group. In C++ it is a class of the same size and layout (lexican/detail/address.hpp) that can
+/// be initialised with the address of any object and is used like a uint8_t *; define CO_DATA_INTEGER to get the plain
 /// pointer there, too. In C write (uint8_t *)&structure: compilers warn about, or refuse, the address of a structure
 /// without the cast.
 #if defined(__cplusplus) && !defined(CO_DATA_INTEGER)
-#include "lexican/address.hpp"
+#include "lexican/detail/address.hpp"
 typedef co::Address CO_PARA_MEM;
 #else
 typedef uint8_t* CO_PARA_MEM;

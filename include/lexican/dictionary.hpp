@@ -39,7 +39,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_number.h"
 #include "co_obj.h"
 #include "lexican/detail/needs.h"
-#include "lexican/rules.hpp"
+#include "lexican/detail/rules.hpp"
 #if USE_OD
 #include "co_od.h"
 #endif

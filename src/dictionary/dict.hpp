@@ -3,7 +3,7 @@
 #pragma once
 
 #include "co_dict.h"
-#include "lexican/rules.hpp"
+#include "lexican/detail/rules.hpp"
 
 namespace co::dict {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file lexican/data.hpp
+/// \file lexican/detail/data.hpp
 /// CO_DATA in C++: the address of an object's data, or the value itself, in one word. Size and layout are those of the
 /// C type (uintptr_t).
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file lexican/rules.hpp
+/// \file lexican/detail/rules.hpp
 /// The rules for a dictionary, used by the compiler and by the node. [CiA 301, 7.4]
 ///
 /// - check_entry() needs the table only. Called by CO_OD_CHECK() and CODictInit(). The latter does not check the

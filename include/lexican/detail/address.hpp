@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file lexican/address.hpp
+/// \file lexican/detail/address.hpp
 /// The address of any object, used as bytes: replaces a `uint8_t *` member in C++, so that it can be initialised with
 /// `&structure`. Size and layout are those of the C type (uint8_t *).
 #pragma once
