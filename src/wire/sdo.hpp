@@ -118,6 +118,10 @@ inline Abort abort_code_in(const CO_IF_FRM& frame) {
 }
 
 // Command bytes of the responses of a server.
+// Properties of the four initiate requests.
+constexpr bool initiates_block(uint8_t command) { return (command & 0x80) != 0; }
+constexpr bool initiates_upload(uint8_t command) { return ((command ^ (command << 1)) & 0x80) != 0; }
+
 inline constexpr uint8_t initiate_download_response = 0x60;
 constexpr uint8_t initiate_upload_response(bool sized) { return sized ? 0x41 : 0x40; }
 constexpr uint8_t expedited_upload_response(uint32_t length) {
@@ -199,6 +203,8 @@ static_assert(response_of(0x60) == Response::initiate_download && response_of(0x
 static_assert(response_of(0x80) == Response::abort && response_of(0x81) == Response::unknown);
 static_assert(response_of(0xA0) == Response::initiate_block_download && response_of(0xA3) == Response::unknown);
 static_assert(response_of(0xC2) == Response::initiate_block_upload && response_of(0xDD) == Response::end_block_upload);
+static_assert(initiates_upload(0x40) && initiates_upload(0xA4) && !initiates_upload(0x2F) && !initiates_upload(0xC6));
+static_assert(initiates_block(0xA4) && initiates_block(0xC6) && !initiates_block(0x40) && !initiates_block(0x2F));
 static_assert(expedited_upload_response(4) == 0x43 && expedited_upload_response(3) == 0x47);
 static_assert(expedited_upload_response(2) == 0x4B && expedited_upload_response(1) == 0x4F);
 static_assert(expedited_download_request(4) == 0x23 && expedited_download_request(1) == 0x2F);

@@ -43,18 +43,18 @@ constexpr uint32_t outside_block = in(State::idle, State::download, State::uploa
 constexpr Transition<Request, Handler> rows[] = {
     {outside_block | in(State::block_download), Request::abort, end_by_client},
 
-    {outside_block, Request::initiate_download, initiate_download},
+    {outside_block, Request::initiate_download, initiate},
     {in(State::download), Request::download_segment, download_segment},
 
-    {outside_block, Request::initiate_upload, initiate_upload},
+    {outside_block, Request::initiate_upload, initiate},
     {in(State::upload), Request::upload_segment, upload_segment},
 
 #if USE_SDO_BLOCK
-    {outside_block, Request::initiate_block_download, initiate_block_download},
+    {outside_block, Request::initiate_block_download, initiate},
     {in(State::block_download, State::block_download_end), Request::block_segment, end_block},
     {in(State::block_download_end), Request::end_block_download, end_block_download},
 
-    {outside_block, Request::initiate_block_upload, initiate_block_upload},
+    {outside_block, Request::initiate_block_upload, initiate},
     {in(State::block_upload_ready), Request::start_block_upload, start_block_upload},
     {in(State::block_upload), Request::acknowledge_block, acknowledge_block},
     {in(State::block_upload_end), Request::end_block_upload, end_block_upload},

@@ -23,9 +23,6 @@ enum class State : uint8_t {
   count
 };
 
-// Protocol of a transfer of more than 4 bytes, as the client requests it.
-enum class Mode : uint8_t { segmented, block };
-
 // CO_SDO.Flags
 enum Flag : uint8_t {
   sized = 0x01,     // download: the client has announced the size
@@ -55,15 +52,11 @@ inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }
 // Handlers of the state machine. They process a request, fill the response, and return an abort code.
 // [301:7.2.4.3] found: object of the request, if it was found before, otherwise null
 using Handler = Abort (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
-[[nodiscard]] Abort initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
+[[nodiscard]] Abort initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
 [[nodiscard]] Abort download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
-[[nodiscard]] Abort initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
 [[nodiscard]] Abort upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
-[[nodiscard]] Abort initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer,
-                                            CO_OBJ* found);
 [[nodiscard]] Abort end_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
 [[nodiscard]] Abort end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
-[[nodiscard]] Abort initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
 [[nodiscard]] Abort start_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
 [[nodiscard]] Abort acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
 [[nodiscard]] Abort end_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
@@ -75,32 +68,9 @@ Abort close(CO_SDO& channel, Abort code);
 // Starts a new transfer of the object in the request; a previous transfer of the client is closed.
 void restart(CO_SDO& channel, const CO_IF_FRM& request);
 
-// Result of open(). obj is valid if abort is Abort::none.
-struct Opened {
-  CO_OBJ* obj;
-  Abort abort;
-};
-
 // Calls the access hook: whether the client may begin this transfer of an object that exists and has the access right.
 // Returns an abort code.
 [[nodiscard]] Abort ask_application(CO_SDO& channel, const CO_IF_FRM& request);
-
-// Calls restart() and performs the checks at the begin of every transfer: object, access right, access hook. The object
-// becomes that of the request. found: the object of the request, or null if it has to be found
-[[nodiscard]] inline Opened open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer, CO_OBJ* found) {
-  restart(channel, request);
-  channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
-  CO_NODE& node = *channel.Node;
-  CO_OBJ* const obj = found != nullptr ? found : dict::find(node, channel.Key);
-  Opened opened = {obj, stream::check(node, channel.Key, obj, transfer)};
-  node.Request->Obj = obj;
-  if constexpr (USE_ACCESS_HOOK != 0) {
-    if (opened.abort == Abort::none) {
-      opened.abort = ask_application(channel, request);
-    }
-  }
-  return opened;
-}
 
 // Continues the transfer beyond this frame, supervised by the time-out.
 void continue_transfer(CO_SDO& channel, CO_OBJ& obj, State state);
