@@ -23,6 +23,9 @@ class Lock {
   CO_NODE& node_;
 };
 
+// The last link of the list is known: most timers are inserted at the end.
+constexpr bool has_end = USE_FAST_PATHS != 0;
+
 // Returns the timer that contains the link.
 CO_TMR_MEM& owner_of(CO_TMR_MEM** link) { return *reinterpret_cast<CO_TMR_MEM*>(link); }
 static_assert(offsetof(CO_TMR_MEM, Next) == 0);
@@ -84,7 +87,7 @@ void process_clock(CO_TMR& t) {
     }
     ticks = (*link)->At - from;
   }
-  return link == t.Armed || link == t.End;
+  return link == t.Armed || !has_end || link == t.End;
 }
 
 // Links a timer that elapses some ticks after a clock value behind all timers that elapse before it or at the same
@@ -92,20 +95,16 @@ void process_clock(CO_TMR& t) {
 // clock, which no armed timer precedes.
 bool link_by_expiry(CO_TMR& t, CO_TMR_MEM& timer, uint32_t from, uint32_t ticks) {
   CO_TMR_MEM** link = t.Armed;
-  CO_TMR_MEM* next = *link;
-  if (next != nullptr && owner_of(t.End).At - from <= ticks) {
+  if (has_end && *link != nullptr && owner_of(t.End).At - from <= ticks) {
     link = t.End;
-    next = nullptr;
-  } else if (next != nullptr) {
-    while (next->At - from <= ticks) {
-      link = &next->Next;
-      next = *link;
-    }
   }
-  if (next == nullptr) {
+  while (*link != nullptr && (*link)->At - from <= ticks) {
+    link = &(*link)->Next;
+  }
+  if (has_end && *link == nullptr) {
     t.End = &timer.Next;
   }
-  timer.Next = next;
+  timer.Next = *link;
   timer.At = from + ticks;
   *link = &timer;
   CO_ASSERT(is_consistent(t, from));
@@ -130,7 +129,7 @@ void remove(CO_TMR& t, CO_TMR_MEM& timer) {
     link = &(*link)->Next;
   }
   *link = timer.Next;
-  if (t.End == &timer.Next) {
+  if (has_end && t.End == &timer.Next) {
     t.End = link;
   }
   if (t.Armed == link) {

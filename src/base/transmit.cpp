@@ -4,16 +4,17 @@
 #include "base/error.hpp"
 #include "co_assert.h"
 #include "hal/port.hpp"
+#include "wire/cob_id.hpp"
 
 namespace co::transmit {
 namespace {
 
 // Returns the rank of a frame in the arbitration on the bus, lowest first: an 11-bit identifier precedes the 29-bit
 // identifiers with the same base.
-uint32_t rank(const CO_IF_FRM& frame) {
+int32_t rank(const CO_IF_FRM& frame) {
   const uint32_t id = frame.Identifier & CO_IF_FRM_ID;
   const bool extended = (frame.Identifier & CO_IF_FRM_EXT) != 0;
-  return extended ? (id << 1) | 1U : id << 19;
+  return static_cast<int32_t>(extended ? (id << 1) | 1U : id << 19);
 }
 
 // Returns whether the invariants of the queue hold. For assertions.
@@ -31,21 +32,14 @@ bool may_send_next(const CO_NODE& node) {
   return node.Transmit.Off == 0 && node.Nmt.Mode > (node.TxQueue.Fixed != 0 ? CO_INVALID : CO_INIT);
 }
 
-void insert(CO_TX_QUEUE& queue, unsigned position, const CO_IF_FRM& frame) {
-  CO_ASSERT(position <= queue.Num && queue.Num < queue.Len);
-  for (unsigned n = queue.Num; n > position; --n) {
-    queue.Frame[n] = queue.Frame[n - 1];
+// Inserts a frame behind those of at most this rank; a negative rank precedes all but the fixed frames.
+void insert(CO_TX_QUEUE& queue, const CO_IF_FRM& frame, int32_t rank_of_frame) {
+  CO_ASSERT(queue.Num < queue.Len);
+  unsigned position = queue.Num++;
+  for (; position > queue.Fixed && rank(queue.Frame[position - 1]) > rank_of_frame; --position) {
+    queue.Frame[position] = queue.Frame[position - 1];
   }
   queue.Frame[position] = frame;
-  ++queue.Num;
-}
-
-unsigned position_of(const CO_TX_QUEUE& queue, uint32_t wanted) {
-  unsigned position = queue.Num;
-  while (position > queue.Fixed && rank(queue.Frame[position - 1]) > wanted) {
-    --position;
-  }
-  return position;
 }
 
 void remove_first(CO_TX_QUEUE& queue) {
@@ -56,12 +50,22 @@ void remove_first(CO_TX_QUEUE& queue) {
   queue.Fixed = static_cast<uint16_t>(queue.Fixed == 0 ? 0 : queue.Fixed - 1);
 }
 
+// Returns the first frame of an identifier, from a position on; null: there is none.
+CO_IF_FRM* find(const CO_TX_QUEUE& queue, unsigned from, uint32_t identifier) {
+  for (unsigned n = from; n < queue.Num; ++n) {
+    if (queue.Frame[n].Identifier == identifier) {
+      return &queue.Frame[n];
+    }
+  }
+  return nullptr;
+}
+
 bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t limit) {
   if (node.TxQueue.Num >= limit) {
     count(node.Count.Dropped);
     return false;
   }
-  insert(node.TxQueue, position_of(node.TxQueue, rank(frame)), frame);
+  insert(node.TxQueue, frame, rank(frame));
   CO_ASSERT(is_consistent(node.TxQueue));
   return true;
 }
@@ -117,6 +121,30 @@ bool survives_reset(const CO_NODE& node, uint32_t identifier) {
   return is_one;
 }
 
+// Frames that drop() drops, besides those of one identifier.
+constexpr uint32_t all_frames = wire::no_frame - 1;
+constexpr uint32_t all_but_responses = wire::no_frame - 2;
+
+bool is_dropped(const CO_NODE& node, uint32_t identifier, uint32_t dropped) {
+  return identifier == dropped || dropped == all_frames ||
+         (dropped == all_but_responses && !survives_reset(node, identifier));
+}
+
+// Drops frames of the queue, from a position on, and counts them as dropped.
+void drop(CO_NODE& node, unsigned from, uint32_t dropped) {
+  CO_TX_QUEUE& queue = node.TxQueue;
+  unsigned kept = from;
+  for (unsigned n = from; n < queue.Num; ++n) {
+    if (is_dropped(node, queue.Frame[n].Identifier, dropped)) {
+      count(node.Count.Dropped);
+    } else {
+      queue.Frame[kept++] = queue.Frame[n];
+    }
+  }
+  queue.Num = static_cast<uint16_t>(kept);
+  CO_ASSERT(is_consistent(queue));
+}
+
 }  // namespace
 
 void init(CO_NODE& node) {
@@ -144,20 +172,15 @@ void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) {
     count(node.Count.Dropped);
   }
   queue.Fixed = queue.Fixed < queue.Num ? queue.Fixed : queue.Num;
-  insert(queue, queue.Fixed, frame);
+  constexpr int32_t ahead = -1;
+  insert(queue, frame, ahead);
   ++queue.Fixed;
   CO_ASSERT(is_consistent(queue));
 }
 
 CO_IF_FRM* find_waiting(CO_NODE& node, uint32_t identifier) {
   flush(node);
-  CO_TX_QUEUE& queue = node.TxQueue;
-  for (unsigned n = queue.Fixed; n < queue.Num; ++n) {
-    if (queue.Frame[n].Identifier == identifier) {
-      return &queue.Frame[n];
-    }
-  }
-  return nullptr;
+  return find(node.TxQueue, node.TxQueue.Fixed, identifier);
 }
 
 void send_latest(CO_NODE& node, const CO_IF_FRM& frame) {
@@ -191,58 +214,26 @@ bool is_full(CO_NODE& node) {
   return node.TxQueue.Num == node.TxQueue.Len;
 }
 
-bool is_queued(const CO_NODE& node, uint32_t identifier) {
-  const CO_TX_QUEUE& queue = node.TxQueue;
-  unsigned n = 0;
-  while (n < queue.Num && queue.Frame[n].Identifier != identifier) {
-    ++n;
-  }
-  return n < queue.Num;
-}
+bool is_queued(const CO_NODE& node, uint32_t identifier) { return find(node.TxQueue, 0, identifier) != nullptr; }
 
 bool has_room_for_application(const CO_NODE& node) { return node.TxQueue.Num < limit_for_application(node.TxQueue); }
 
-void withdraw(CO_NODE& node, uint32_t identifier) {
-  CO_TX_QUEUE& queue = node.TxQueue;
-  unsigned kept = queue.Fixed;
-  for (unsigned n = kept; n < queue.Num; ++n) {
-    if (queue.Frame[n].Identifier == identifier) {
-      count(node.Count.Dropped);
-    } else {
-      queue.Frame[kept++] = queue.Frame[n];
-    }
-  }
-  queue.Num = static_cast<uint16_t>(kept);
-  CO_ASSERT(is_consistent(queue));
-}
+void withdraw(CO_NODE& node, uint32_t identifier) { drop(node, node.TxQueue.Fixed, identifier); }
 
 void clear(CO_NODE& node) {
-  for (; node.TxQueue.Num != 0; --node.TxQueue.Num) {
-    count(node.Count.Dropped);
-  }
   node.TxQueue.Fixed = 0;
+  drop(node, 0, all_frames);
 }
 
-void drop_behind_responses(CO_NODE& node) {
-  CO_TX_QUEUE& queue = node.TxQueue;
-  for (; queue.Num > queue.Fixed; --queue.Num) {
-    count(node.Count.Dropped);
-  }
-}
+void drop_behind_responses(CO_NODE& node) { drop(node, node.TxQueue.Fixed, all_frames); }
 
 void keep_responses(CO_NODE& node) {
-  CO_TX_QUEUE& queue = node.TxQueue;
   if (node.Nmt.Mode == CO_INIT) {  // queued frames of Initialisation follow the boot-up message
     return;
   }
-  queue.Fixed = 0;
-  for (unsigned n = 0; n < queue.Num; ++n) {
-    if (survives_reset(node, queue.Frame[n].Identifier)) {
-      queue.Frame[queue.Fixed++] = queue.Frame[n];
-    }
-  }
-  drop_behind_responses(node);
-  CO_ASSERT(is_consistent(queue));
+  node.TxQueue.Fixed = 0;
+  drop(node, 0, all_but_responses);
+  node.TxQueue.Fixed = node.TxQueue.Num;
 }
 
 }  // namespace co::transmit

@@ -27,8 +27,8 @@ void resume_sending(CO_NODE& node) {
   }
 }
 
-// Calls resume_sending() for COTmrProcess(), so that a firmware may call CONodeProcess() for received frames only.
-// Where there is a real-time thread, resets are left to CONodeProcess().
+// Calls resume_sending(), for CONodeProcess() and for COTmrProcess(), so that a firmware may call the former for
+// received frames only. Where there is a real-time thread, resets are left to CONodeProcess().
 [[gnu::noinline]] void resume_sending_between_frames(CO_NODE& node) {
   if (node.State != event::running) {
     return;
@@ -109,13 +109,16 @@ void CONodeProcess(CO_NODE* node) {
     node::drop_received(*node);
     return;
   }
-  node->Transmit.Burst = 0;
-  if (node::waits_to_send(*node)) {
-    node::resume_sending(*node);
-    node::run_deferred_of_mainline(*node);
+  if (USE_FAST_PATHS == 0 || node::waits_to_send(*node)) {
+    node::resume_sending_between_frames(*node);
+    if constexpr (USE_REAL_TIME != 0) {
+      node::run_deferred_of_mainline(*node);
+    }
     if (node->State != event::running) {
       return;
     }
+  } else {
+    node->Transmit.Burst = 0;  // the limit of offer() begins anew
   }
   CO_IF_FRM frame = wire::empty_frame();
   if (!node::receive(*node, frame)) {
