@@ -439,7 +439,7 @@ uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(U
 /// Returns the name of a group; null: there is no such group, or it has no name.
 const char* OD_getStorageName(const OD_t* od, uint8_t group) CO_NEEDS(USE_OD) CO_NEEDS(USE_PARA);
 
-/// Stores the group, like "save" of the network. If 1010h has more than one sub-index, group 1 stands for all groups.
+/// Stores the group, like "save" of the network. If 1010h has more than one sub-index, group 1 selects all groups.
 /// \retval ODR_OK              the group is stored
 /// \retval ODR_SUB_NOT_EXIST   there is no such group
 /// \retval ODR_HW              the memory does not hold the values; the old ones stay

@@ -12,7 +12,7 @@
 ///
 /// The network stores groups by writing "save" (65766173h) to 1010h and restores their default values by writing "load"
 /// (64616F6Ch) to 1011h. If sub-index 1 is the only one, it is a group. If there are others (sub-index 0 > 1),
-/// sub-index 1 stands for all of them: 2 = communication, 3 = application, 4…127 = manufacturer-specific; it then
+/// sub-index 1 selects all of them: 2 = communication, 3 = application, 4…127 = manufacturer-specific; it then
 /// refers to a CO_PARA whose memory is neither stored nor loaded: { 0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA___E
 /// }. A group is loaded, before its values are used, by CONodeInit() and by the NMT reset of its Type: CO_RESET_COM by
 /// both resets, CO_RESET_NODE by reset node (and its first ComSize bytes by both). "load" takes effect at that time,

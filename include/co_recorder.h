@@ -159,7 +159,7 @@ typedef struct CO_RECORDER_T {
   int32_t Min;                 ///< least value
   int32_t Max;                 ///< greatest value
   uint32_t TriggerTime;        ///< time of the last trigger
-  uint8_t State;               ///< idle, waiting for the trigger, recording, or full
+  uint8_t State;               ///< idle, waiting for the trigger, triggered, recording, or full
   uint8_t HasValue;            ///< 1: a sample was taken
   CO_RECORDER_PLOT Plot;       ///< plot that is being read
 } CO_RECORDER;

@@ -16,7 +16,7 @@ extern "C" {
 /// that the application includes: the application's definition would become weak, too.
 #define WEAK __attribute__((weak))
 
-/// Like WEAK, for definitions that only tests replace.
+/// Like WEAK. Lexican does not use it: for sources of CANopen-Stack that do.
 #define WEAK_TEST __attribute__((weak))
 
 /// Marks a parameter that is intentionally unused.

@@ -258,7 +258,7 @@ constexpr CO_DICT_FAULT check_content(std::uint32_t key, Content content) {
   return direct && rules::has(key, CO_OBJ______W) ? CO_DICT_DIRECT_CONST : CO_DICT_OK;
 }
 
-/// Checks types that the library does not know. For OD_TNUMBER and OD_TSTREAM, whose objects only an extension
+/// Checks types of the application. For OD_TNUMBER and OD_TSTREAM, whose objects only an extension
 /// provides, Data is a length.
 constexpr CO_DICT_FAULT check_unknown([[maybe_unused]] const CO_OBJ_TYPE* type, [[maybe_unused]] Content content) {
 #if USE_OD

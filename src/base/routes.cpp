@@ -111,7 +111,7 @@ unsigned next(const CO_NODE& node, unsigned slot, uint32_t identifier, uint16_t 
 }
 
 void publish(const CO_NODE& node) {
-  if (port::can_wants_filter(node)) {
+  if (port::can_has_filter(node)) {
     port::can_filter(node, node.Routes.Id, node.Routes.Start[end]);
   }
 }
@@ -129,7 +129,7 @@ void clear(CO_NODE& node) {
 
 // Passes a sorted copy of the identifiers, which is on the CPU's stack.
 void publish(const CO_NODE& node) {
-  if (!port::can_wants_filter(node)) {
+  if (!port::can_has_filter(node)) {
     return;
   }
   uint32_t sorted[CO_ROUTE_N];

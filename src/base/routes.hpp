@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Routes: the parts that receive the frames of an identifier. The table is sorted by identifier; the first route of
-// each function code is stored beside it, so that an unrelated frame is found to have no consumer after one or two
-// comparisons.
+// Routes: the parts that receive the frames of an identifier. With CO_ROUTES_SORTED the table is sorted by identifier,
+// and the first route of each function code is stored with it, so that an unrelated frame is rejected after one or two
+// comparisons. Otherwise each receiver has a fixed slot, and all slots are compared.
 #pragma once
 
 #include "co_assert.h"
@@ -26,7 +26,7 @@ inline constexpr uint16_t routes_of[] = {
 #undef CO_ROUTES
 };
 
-// Returns the number of the parts before this one that have routes: the number of this one among the receivers.
+// Returns how many parts before this one have routes: the index of this part among the receivers.
 constexpr unsigned receivers_before(PartId part) {
   unsigned number = 0;
   for (unsigned n = 0; n < static_cast<unsigned>(part); ++n) {
@@ -69,7 +69,8 @@ void remove(CO_NODE& node, uint16_t owner);
 void change(CO_NODE& node, uint32_t identifier, uint16_t owner);
 
 #else
-// Returns the slot of the first route of an identifier that is not before from; CO_ROUTE_N if there is none.
+// Returns the slot of the first route of an identifier that is not before from; CO_ROUTE_N if there is none. The
+// identifier is first stored behind the last slot, so that the loop needs no bound.
 [[nodiscard]] inline unsigned find(CO_NODE& node, uint32_t identifier, unsigned from) {
   uint32_t* const ids = node.Routes.Id;
   ids[CO_ROUTE_N] = identifier;
@@ -133,8 +134,8 @@ inline constexpr uint32_t no_identifier = ~0U;
   return routes.Id[first] == identifier ? first : nowhere;
 }
 
-// Returns the slot of the next route of the identifier behind the route of owner, or nowhere. slot: slot of
-// that route before its part has processed the frame, which may have changed the routes.
+// Returns the slot of the next route of the identifier behind the route of owner, or nowhere. slot: that
+// of this route before its part has processed the frame, which may have changed the routes.
 [[nodiscard]] unsigned next(const CO_NODE& node, unsigned slot, uint32_t identifier, uint16_t owner);
 
 [[nodiscard]] constexpr uint8_t receiver_of(uint16_t owner) { return static_cast<uint8_t>(owner >> 12); }

@@ -271,13 +271,13 @@ bool run_one(CO_TMR& t, Share share, const Span& span) {
 }
 
 // Returns whether the node has a lock or a real-time thread.
-bool has_turns(const CO_TMR& t) {
+bool has_node_lock(const CO_TMR& t) {
   const CO_NODE_EXT* const ext = t.Node == nullptr ? nullptr : t.Node->Ext;
   return ext != nullptr && (ext->Enter != nullptr || ext->Mainline != nullptr);
 }
 
 // Runs each action with the node lock taken anew, so that other threads wait for one action at most.
-void run_in_turns(CO_TMR& t, void (*before)(CO_NODE& node)) {
+void run_with_node_lock(CO_TMR& t, void (*before)(CO_NODE& node)) {
   const Share share = share_of_mainline(t);
   Span span = {};
   bool more = false;
@@ -293,14 +293,14 @@ void run_in_turns(CO_TMR& t, void (*before)(CO_NODE& node)) {
 }
 
 // Returns whether COTmrProcess() has actions to run.
-bool has_work(CO_TMR& t) { return has_turns(t) ? first_due(t, share_of_mainline(t)) != t.Armed : has_due(t); }
+bool has_work(CO_TMR& t) { return has_node_lock(t) ? first_due(t, share_of_mainline(t)) != t.Armed : has_due(t); }
 
 }  // namespace
 
 bool run_locked(CO_TMR& timers, void (*before)(CO_NODE& node)) {
-  const bool is_locked = has_turns(timers);
+  const bool is_locked = has_node_lock(timers);
   if (is_locked) {
-    run_in_turns(timers, before);
+    run_with_node_lock(timers, before);
   }
   return is_locked;
 }

@@ -5,7 +5,7 @@ namespace co::port {
 namespace {
 
 // Clears the frames that are queued for CONodeProcess(): they are part of the driver's receive queue.
-void forget_received([[maybe_unused]] const CO_NODE& node) {
+void clear_mainline_ring([[maybe_unused]] const CO_NODE& node) {
 #if USE_REAL_TIME
   CORingClear(node.Ext->Mainline);
 #endif
@@ -24,22 +24,22 @@ void init(CO_NODE& node) {
 
 void can_init(const CO_NODE& node) {
   node.If.Can->Init(node.If.CanCtx);
-  forget_received(node);
+  clear_mainline_ring(node);
 }
 
 void can_reset(const CO_NODE& node) {
   node.If.Can->Reset(node.If.CanCtx);
-  forget_received(node);
+  clear_mainline_ring(node);
 }
 
 void can_close(const CO_NODE& node) {
   node.If.Can->Close(node.If.CanCtx);
-  forget_received(node);
+  clear_mainline_ring(node);
 }
 
 void can_enable(const CO_NODE& node, uint32_t baud) { node.If.Can->Enable(node.If.CanCtx, baud); }
 
-bool can_wants_filter(const CO_NODE& node) { return node.If.Can->Filter != nullptr; }
+bool can_has_filter(const CO_NODE& node) { return node.If.Can->Filter != nullptr; }
 
 void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num) {
   node.If.Can->Filter(node.If.CanCtx, ids, num);

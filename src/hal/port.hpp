@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of drivers and lock hooks: no other module calls them. All drivers have a context argument; hal/classic.cpp has
-// the adapters for classic drivers (CO_IF_DRV, as in CANopen-Stack).
+// Calls of drivers, of the timer lock and of the node lock: no other module calls them. All drivers have a context
+// argument; hal/classic.cpp has the adapters for classic drivers (CO_IF_DRV, as in CANopen-Stack).
 #pragma once
 
 #include "co_core.h"
@@ -12,10 +12,8 @@ namespace co::port {
 [[nodiscard]] inline bool is_initialised(const CO_NODE& node) { return node.Ext != nullptr; }
 
 #if USE_OD
-// Returns the index of co_od.h; null: none.
-[[nodiscard]] inline struct OD_T_* index_of(const CO_NODE& node) {
-  return is_initialised(node) ? node.Ext->Od : nullptr;
-}
+// Returns the OD_t of the node (co_od.h); null: none.
+[[nodiscard]] inline struct OD_T_* od_of(const CO_NODE& node) { return is_initialised(node) ? node.Ext->Od : nullptr; }
 #endif
 
 void init(CO_NODE& node);
@@ -32,7 +30,8 @@ inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlo
 #endif
 }
 
-// Node lock (CO_NODE_EXT.Enter and Leave). NodeLock holds it for a scope. Scopes must not nest.
+// Node lock (CO_NODE_EXT.Enter and Leave). NodeLock holds it for a scope; scopes must not nest. unlock_node() gets the
+// extension that was valid when the lock was taken, because CONodeInit() may replace it meanwhile; null: no effect.
 #if USE_REAL_TIME
 [[nodiscard]] inline bool has_node_lock(const CO_NODE& node) { return node.Ext->Enter != nullptr; }
 inline void lock_node(CO_NODE& node) {
@@ -90,9 +89,9 @@ void can_enable(const CO_NODE& node, uint32_t baud);
 void can_reset(const CO_NODE& node);
 void can_close(const CO_NODE& node);
 void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
-[[nodiscard]] bool can_wants_filter(const CO_NODE& node);
+[[nodiscard]] bool can_has_filter(const CO_NODE& node);
 
-// Returns the driver's result: sizeof(CO_IF_FRM), 0 (no frame waits), < 0 (fault).
+// Returns the driver's result: sizeof(CO_IF_FRM), 0 (no frame was received), < 0 (fault).
 [[nodiscard]] inline int16_t can_read(const CO_NODE& node, CO_IF_FRM& frame) {
   return node.If.Can->Read(node.If.CanCtx, &frame);
 }
@@ -107,16 +106,16 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
   return true;
 }
 
-// Returns the driver's result: sizeof(CO_IF_FRM) (accepted), 0 (not now), < 0 (fault).
+// Returns the driver's result: sizeof(CO_IF_FRM) (accepted), 0 (not accepted: no free transmit buffer), < 0 (fault).
 [[nodiscard]] inline int16_t can_send(const CO_NODE& node, const CO_IF_FRM& frame) {
   return node.If.Can->Send(node.If.CanCtx, &frame);
 }
 
 [[nodiscard]] inline bool nvm_exists(const CO_NODE& node) { return node.If.Nvm != nullptr; }
-[[nodiscard]] inline bool nvm_has_shape(const CO_NODE& node) {
+[[nodiscard]] inline bool nvm_has_geometry(const CO_NODE& node) {
   return nvm_exists(node) && node.If.Nvm->Shape != nullptr;
 }
-[[nodiscard]] inline CO_NVM_SHAPE nvm_shape(const CO_NODE& node) { return node.If.Nvm->Shape(node.If.NvmCtx); }
+[[nodiscard]] inline CO_NVM_SHAPE nvm_geometry(const CO_NODE& node) { return node.If.Nvm->Shape(node.If.NvmCtx); }
 [[nodiscard]] bool nvm_erase(const CO_NODE& node, uint32_t start, uint32_t size);
 [[nodiscard]] uint32_t nvm_read(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);
 [[nodiscard]] uint32_t nvm_write(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);

@@ -8,7 +8,8 @@
 
 namespace co {
 
-// Runs the deferred work whose bits are set in what, and the work that it causes. A reset configures everything.
+// Runs the deferred work whose bits are set in what, and the work that it causes. New parameters are not configured
+// before a reset, which configures everything, nor in a node that is being stopped.
 void node::run_pending(CO_NODE& node, unsigned what) {
   while (node.State == event::running) {
     const unsigned pending = event::runnable(node, what);
@@ -16,6 +17,7 @@ void node::run_pending(CO_NODE& node, unsigned what) {
       return;
     }
     const event::Working working(node);
+    // send_deferred() and enter_requested_mode() remove the bits of messages and mode themselves.
     event::remove(node, pending & ~unsigned{event::messages | event::mode});
     if ((pending & event::configure) != 0 && (pending & event::resets) == 0 && node.Nmt.Next != CO_INVALID) {
       parts::run<&Part::of_configure>(node);

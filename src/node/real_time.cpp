@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A second thread for SYNC and PDOs: CONodeRealTime().
+// A second thread for SYNC, PDOs, SRDOs and GFC: CONodeRealTime().
 #include "base/error.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
@@ -15,7 +15,8 @@
 namespace co::node {
 namespace {
 
-// Returns whether all routes of the identifier at this slot belong to SYNC and PDOs.
+// Returns whether all routes of the identifier at this slot need the permission of SYNC or PDOs: those of SYNC, PDOs,
+// multiplex PDOs, SRDOs and GFC.
 bool is_real_time(const CO_NODE& node, unsigned slot) {
   constexpr unsigned own = CO_SYNC_ALLOWED | CO_PDO_ALLOWED;
   const uint32_t id = node.Routes.Id[slot];
@@ -25,8 +26,8 @@ bool is_real_time(const CO_NODE& node, unsigned slot) {
   return !routes::is_at(node, slot, id);
 }
 
-// Processes a frame in the real-time thread. A frame that the NMT state forbids now is dropped: left to
-// CONodeProcess(), it would be processed after newer frames.
+// Processes a frame in the real-time thread. A frame that the NMT state forbids now is dropped:
+// CONodeProcess() would process it after newer frames.
 void process(CO_NODE& node, const CO_IF_FRM& frame, unsigned slot) {
   if (slot == routes::nowhere || !parts::dispatch(node, frame, slot)) {
     count(node.Count.Unclaimed);
@@ -61,7 +62,7 @@ void process_or_queue(CO_NODE& node, CO_IF_FRM frame) {
 
 }  // namespace
 
-// Runs all deferred work, for CONodeProcess(): also the work that is left to the mainline.
+// Runs all deferred work in CONodeProcess(), with the work that only the mainline runs.
 void run_deferred_of_mainline(CO_NODE& node) {
   if ((node.Pending & event::overrun) != 0) {
     const event::Working working(node);
@@ -71,7 +72,7 @@ void run_deferred_of_mainline(CO_NODE& node) {
   run_pending(node, ~unsigned{event::overrun});
 }
 
-// Returns whether the real-time thread has left work to CONodeProcess().
+// Returns whether deferred work or frames are queued for CONodeProcess().
 bool is_awaited(const CO_NODE& node) {
   return port::has_mainline(node) && (node.Pending != 0 || CORingCount(node.Ext->Mainline) != 0);
 }
@@ -82,8 +83,8 @@ bool receive_from_mainline(CO_NODE& node, CO_IF_FRM& frame) { return CORingGet(n
 
 using namespace co;
 
-// Keeps the node working throughout, so that deferred work is left to the mainline, except messages. A requested NMT
-// state ends the loop, and is entered at the end.
+// Keeps the node working throughout, so that the mainline runs the deferred work, except messages (EMCY, TPDOs). A
+// requested NMT state ends the loop, and is entered at the end.
 extern "C" void CONodeRealTime(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
   const port::NodeLock lock(*node);
@@ -95,7 +96,8 @@ extern "C" void CONodeRealTime(CO_NODE* node) {
     node::drop_received(*node);
     return;
   }
-  const unsigned ends = node->State == event::running ? unsigned{event::mode} : 0U;  // else the mainline enters it
+  const unsigned ends =
+      node->State == event::running ? unsigned{event::mode} : 0U;  // else the node works: the mainline enters it
   {
     const event::Working working(*node);
     transmit::flush(*node);

@@ -108,14 +108,14 @@ constexpr CO_STORE_T none = {load_nothing, refuse};  // the node has no memory t
 }  // namespace
 
 const CO_STORE_T& of(const CO_NODE& node) {
-  if (port::nvm_has_shape(node)) {
+  if (port::nvm_has_geometry(node)) {
     return slots::store;
   }
   return node.If.Raw != nullptr ? *node.If.Raw : none;
 }
 
 uint32_t space(CO_NODE& node, const Record& record) {
-  if (port::nvm_has_shape(node)) {
+  if (port::nvm_has_geometry(node)) {
     return slots::space(node, record);
   }
   return node.If.Raw != nullptr && port::nvm_exists(node) ? record.size : 0;

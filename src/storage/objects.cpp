@@ -23,7 +23,7 @@ bool is_number_of_groups(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) == 0; }
 // functions.
 bool is_restore(const CO_OBJ& obj) { return CO_GET_IDX(obj.Key) == restore_index; }
 
-// Returns the flags of all groups that an entry stands for. error: null, or CO_ERR_NONE: executes "save" or "load" for
+// Returns the flags of all groups that an entry selects. error: null, or CO_ERR_NONE: executes "save" or "load" for
 // the groups, and error becomes the first error
 uint32_t visit(CO_NODE& node, const CO_OBJ& obj, CO_ERR* error) {
   Groups groups(node, static_cast<uint16_t>(CO_GET_IDX(obj.Key)));
@@ -63,7 +63,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size != sizeof(uint32_t) || uintptr_t{obj->Data} == 0) {
     return CO_ERR_OBJ_SIZE;
   }
-  const uint32_t possible = !is_restore(*obj) && port::nvm_has_shape(*node) ? CO_PARA__AE : CO_PARA___E;
+  const uint32_t possible = !is_restore(*obj) && port::nvm_has_geometry(*node) ? CO_PARA__AE : CO_PARA___E;
   integer::put_u32(buffer, visit(*node, *obj, nullptr) & possible);
   return CO_ERR_NONE;
 }

@@ -61,7 +61,7 @@ Located locate(CO_NODE& node, const CO_PARA& group) {
 // Stores a group if it is autonomous, has changed, and the memory does not hold the request of a "load" to use the
 // defaults, which a store would replace.
 CO_ERR save_change(CO_NODE& node, const CO_PARA& group) {
-  return is_saved_autonomously(group) && port::nvm_has_shape(node)
+  return is_saved_autonomously(group) && port::nvm_has_geometry(node)
              ? save(node, group, memory_of(group), store::Cause::change)
              : CO_ERR_NONE;
 }
@@ -92,7 +92,7 @@ CO_ERR without_delay(CO_ERR err) { return CO_PARA_BUDGET > 0 && err == CO_ERR_OB
 // stored is not read, because CO_PARA.Offset may have any value; with a classic driver it is read, as in CANopen-Stack.
 [[gnu::noinline]] CO_ERR load_group(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   const Located located = locate(node, group);
-  const bool is_read = located.err == CO_ERR_NONE && (has_record(group) || !port::nvm_has_shape(node));
+  const bool is_read = located.err == CO_ERR_NONE && (has_record(group) || !port::nvm_has_geometry(node));
   store::Target target = {memory_of(group), size, false};
   const Found found = is_read ? store::of(node).load(node, located.record, target) : Found::blank;
   CO_ERR err = found == Found::data ? CO_ERR_NONE : use_defaults(node, group, size, found);

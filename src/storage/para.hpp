@@ -43,7 +43,7 @@ inline uint8_t* memory_of(const CO_PARA& group) { return group.Start; }
 constexpr bool is_saved_on_command(const CO_PARA& group) { return (group.Value & CO_PARA___E) != 0; }
 constexpr bool is_saved_autonomously(const CO_PARA& group) { return (group.Value & CO_PARA__A_) != 0; }
 
-// The groups of 1010h or 1011h: sub-index 1 stands for all that follow it, if any do. [301:7.5.2.13]
+// The groups of 1010h or 1011h: sub-index 1 selects all that follow it, if any do. [301:7.5.2.13]
 class Groups {
  public:
   Groups(CO_NODE& node, uint16_t index);
@@ -51,7 +51,7 @@ class Groups {
   // Returns the next group; null: there is none.
   [[nodiscard]] const CO_PARA* next();
 
-  // Returns whether sub-index 1 stands for other groups.
+  // Returns whether sub-index 1 selects other groups.
   [[nodiscard]] bool are_several() const { return last_ > 1; }
 
   // Returns the entry whose group next() has returned.

@@ -37,7 +37,7 @@ struct Region {
   Region(CO_NODE& owner, const Record& what)
       : node(owner),
         record(what),
-        shape(port::nvm_shape(owner)),
+        shape(port::nvm_geometry(owner)),
         program(shape.ProgramSize == 0 ? 1 : shape.ProgramSize),
         unit(shape.EraseSize == 0 ? program : shape.EraseSize),
         buffer(CO_STORE_BUFFER - CO_STORE_BUFFER % program),

@@ -37,7 +37,7 @@ inline CO_IF_FRM empty_frame() {
   return frame;
 }
 
-// Sets the DLC to the number of data bytes: 9…15 stand for 8 bytes [ISO 11898-1]. Returns false for a larger value,
+// Sets the DLC to the number of data bytes: 9…15 mean 8 bytes [ISO 11898-1]. Returns false for a larger value,
 // which is malformed: a driver has passed the length of a CAN FD frame, or garbage.
 [[nodiscard]] inline bool normalise_length(CO_IF_FRM& frame) {
   constexpr uint8_t highest_dlc = 15;

@@ -32,7 +32,7 @@ static_assert(mpdo_low(0x85, CO_DEV(0x6200, 0x01)) == 0x01620085);
 static_assert(mpdo_key(0x01620085) == CO_DEV(0x6200, 0x01) && mpdo_address(0x01620085) == 0x85);
 
 // Returns the number of consecutive sub-indices in an entry of a list. high: the 32 bits of the entry that begin with
-// the block size; block size 0 stands for a single object.
+// the block size; block size 0 means a single object.
 constexpr uint8_t mpdo_block(uint32_t high) { return static_cast<uint8_t>((high >> 24) != 0 ? high >> 24 : 1U); }
 
 // Returns the key in an entry of the object scanner list: block size, index, sub-index.

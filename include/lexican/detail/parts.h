@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file lexican/detail/parts.h
 /// The list of the parts of the stack: services, and others that take part in the events of a node. A new part is a
-/// folder in src/service and a row here.
+/// folder (in src/service, or src/storage and src/extra) and a row here.
 #ifndef LEXICAN_DETAIL_PARTS_H_
 #define LEXICAN_DETAIL_PARTS_H_
 

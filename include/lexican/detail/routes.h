@@ -18,8 +18,8 @@ typedef uint8_t CO_ROUTE_NUM;
 
 #define CO_ROUTE_CLASS_N (USE_FAST_PATHS ? 17 : 1)
 
-// With USE_FAST_PATHS 0 each service instance that can receive frames has a fixed slot, and frames are compared with
-// all of them.
+// With USE_FAST_PATHS 0 and USE_REAL_TIME 0 each service instance that can receive frames has a fixed slot, and frames
+// are compared with all of them.
 #define CO_ROUTES_SORTED (USE_FAST_PATHS || USE_REAL_TIME)
 
 #if CO_ROUTES_SORTED

@@ -40,6 +40,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
   return CO_ERR_NONE;
 }
 
+// Ignores bytes beyond the domain: an SDO server refuses such a download by its length.
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   CO_OBJ_DOM* const domain = find_domain<CO_OBJ_DOM>(*obj);
   if (domain == nullptr) {
@@ -54,7 +55,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_ERR_NONE;
 }
 
-static_assert(offsetof(CO_OBJ_DOM_RO, Offset) == 0);
+static_assert(offsetof(CO_OBJ_DOM_RO, Offset) == 0, "stream::seek() sets the first member");
 
 uint32_t size_of_constant(CO_OBJ* obj, CO_NODE*, uint32_t) {
   const auto* const domain = find_domain<CO_OBJ_DOM_RO>(*obj);

@@ -13,19 +13,19 @@
 namespace co::integer {
 namespace {
 
-// Adds the node-ID, or its negative, to a number.
-[[gnu::noinline]] uint32_t shift(uint32_t number, uint32_t by, unsigned format) {
-  uint32_t ids = UINT32_MAX >> (32U - 8U * bytes_of(format));
+// Adds the node-ID, or its negative, to a number, modulo its width; in a COB-ID to the CAN-ID, the flags are kept.
+[[gnu::noinline]] uint32_t add_node_id(uint32_t number, uint32_t node_id, unsigned format) {
+  uint32_t changed = UINT32_MAX >> (32U - 8U * bytes_of(format));
   if (format == cob_id) {
-    ids = (number & wire::cob_frame) != 0 ? wire::extended_ids : wire::base_ids;
+    changed = (number & wire::cob_frame) != 0 ? wire::extended_ids : wire::base_ids;
   }
-  return (number & ~ids) | ((number + by) & ids);
+  return (number & ~changed) | ((number + node_id) & changed);
 }
 
 // Returns the number at the address of an entry's value, as the network sees it: with flag N the node-ID is added.
 inline uint32_t value_at(const void* address, unsigned bytes, const CO_OBJ& obj, const CO_NODE& node, unsigned format) {
   const uint32_t stored = load<uint32_t>(address, bytes);
-  return CO_IS_NODEID(obj.Key) != 0 ? shift(stored, node.NodeId, format) : stored;
+  return CO_IS_NODEID(obj.Key) != 0 ? add_node_id(stored, node.NodeId, format) : stored;
 }
 
 [[gnu::noinline]] CO_ERR read_number(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned format) {
@@ -74,7 +74,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, const void* buffer, uint32_t size, unsi
     err = parameter->may(*node, *obj, value, before);
   }
   if (err == CO_ERR_NONE) {
-    const uint32_t stored = CO_IS_NODEID(obj->Key) != 0 ? shift(value, 0U - node->NodeId, format) : value;
+    const uint32_t stored = CO_IS_NODEID(obj->Key) != 0 ? add_node_id(value, 0U - node->NodeId, format) : value;
     err = set_value<uint32_t>(*obj, *node, address, stored, size);
   }
   if (err == CO_ERR_NONE && parameter != nullptr && parameter->apply != nullptr) {

@@ -38,7 +38,7 @@ constexpr unsigned offset_of_byte(unsigned n, unsigned bytes) {
 }
 
 // Reads a number, at any alignment: in one access where its alignment allows it, so that an interrupt sees the old or
-// the new value.
+// the new value. Numbers of 64 bits are so only on CPUs with accesses of 64 bits.
 template <class T>
 inline T load(const void* from, unsigned bytes) {
   if (sizeof(T) == 8 && is_one_access<uint64_t>(from, bytes)) {
@@ -97,11 +97,11 @@ inline void* address_of_value(CO_OBJ& obj, unsigned storage) {
 // Returns the bytes of a number (1, 2 or 4) that load_aligned() reads as its type does; 0 for any other object. Its
 // type also writes as store_aligned() does, unless the object has flag A or CO_NODE_EXT.Writable refuses.
 inline unsigned plain_bytes(const CO_OBJ& obj) {
-  constexpr uint32_t typed = CO_OBJ_D_____ | CO_OBJ__N____;
+  constexpr uint32_t only_by_type = CO_OBJ_D_____ | CO_OBJ__N____;  // flags with which only the type can read the value
   const CO_OBJ_TYPE* const type = obj.Type;
   const unsigned bytes = type == &COTInt32 ? 4U : type == &COTInt16 ? 2U : type == &COTInt8 ? 1U : 0U;
   const uintptr_t address = obj.Data;
-  return (obj.Key & typed) == 0 && address != 0 && (address & (bytes - 1U)) == 0 ? bytes : 0;
+  return (obj.Key & only_by_type) == 0 && address != 0 && (address & (bytes - 1U)) == 0 ? bytes : 0;
 }
 
 // Returns the node-ID if the value is relative to it (flag N), else 0.

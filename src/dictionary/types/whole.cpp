@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Access of a PDO to an object as a whole (dictionary/types/stream.hpp).
 
 #include "co_core.h"
 #include "dictionary/obj.hpp"
@@ -18,7 +19,7 @@ namespace {
 // that may have ended the application's access (OD_extension_init()).
 class KeptAccess {
  public:
-  explicit KeptAccess(const CO_NODE& node) : od_(port::index_of(node)) {
+  explicit KeptAccess(const CO_NODE& node) : od_(port::od_of(node)) {
     if (od_ != nullptr) {
       changes_ = od_->Changes;
       before_ = od_->Transfer[OD_TRANSFER_N - 1];

@@ -136,7 +136,7 @@ void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) {
   const event::Call call(node);
   od::mirror(*entry, subIndex, false);
   od::clear_sent(node, pdo::number_of(node, *obj));
-  const uint32_t key = obj->Key;
+  const uint32_t key = obj->Key;  // a copy: a callback may replace the table
   error::report(node, pdo::request_object(node, *obj), key);
 }
 

@@ -77,7 +77,7 @@ uint8_t OD_findStorageGroup(const OD_t* od, const char* name) {
   return 0;
 }
 
-// Returns sub-index 1 only if 1010h has no other group; otherwise sub-index 1 stands for all groups.
+// Returns sub-index 1 only if 1010h has no other group; otherwise sub-index 1 selects all groups.
 uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) {
   const void* const memory = OD_getPtr(entry, subIndex, 0, nullptr);
   if (memory == nullptr || !od::is_of_table(*entry)) {

@@ -101,7 +101,7 @@ CO_OBJ* find_in_table(const OD_t& od, uint32_t key) {
 }
 
 OD_extension_t* extension_of(const CO_NODE& node, const CO_OBJ& obj) {
-  const OD_entry_t* const entry = OD_find(port::index_of(node), CO_GET_IDX(obj.Key));
+  const OD_entry_t* const entry = OD_find(port::od_of(node), CO_GET_IDX(obj.Key));
   return entry == nullptr ? nullptr : entry->extension;
 }
 

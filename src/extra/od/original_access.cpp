@@ -295,7 +295,7 @@ OD_size_t end_of_write(const OD_stream_t& stream, const Properties& properties, 
 
 // Returns the running call of an extension's write function, if it is for this object; else null.
 OD_WRITING_T* find_running_write(const OD_stream_t& stream) {
-  const OD_t* const od = port::index_of(*stream.Owner);
+  const OD_t* const od = port::od_of(*stream.Owner);
   OD_WRITING_T* const writing = od == nullptr ? nullptr : od->Writing;
   return writing != nullptr && &writing->obj == stream.Entry ? writing : nullptr;
 }

@@ -156,7 +156,7 @@ bool is_zero(const Access& access, const uint8_t* data, OD_size_t n, OD_size_t a
 }
 
 // Returns how many of n bytes belong to the text, which ends at its first zero. An empty text counts as one character,
-// the zero.
+// the zero, because an upload of 0 bytes would mean that there is no value.
 OD_size_t length_of_text(Access& access, const uint8_t* data, OD_size_t n) {
   const unsigned character = bytes_of_character(access);
   OD_size_t at = access.state.Passed % character;
@@ -215,7 +215,7 @@ ODR_t read(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANS
 
 // Writing -------------------------------------------------------------------------------------------------------------
 
-constexpr uint32_t short_text = 8;
+constexpr uint32_t short_text = 8;  // bytes of a text that the function gets in one call, with its terminating zero
 
 // Sets dataLength to the length of the download, by which the function detects the last piece. A terminating zero is
 // added to a text if its capacity allows that. Returns the bytes of this zero.
@@ -367,7 +367,8 @@ ODR_t move_to_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extensi
   return result;
 }
 
-// Sets the position of an access through an extension; for the application, position 0 begins a new access.
+// Sets the position of an access through an extension; for the application, position 0 begins a new access. The
+// direction is not known here; it only selects the error if ODR_t has no corresponding abort code.
 CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, uint32_t position) {
   OD_t& od = *node.Ext->Od;
   const bool by_application = !is_called_by_transfer(od, node, obj);
@@ -392,7 +393,7 @@ CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
 
 // Returns the SDO transfer that is being served if the running access belongs to it, else null.
 OD_TRANSFER* transfer_of_original(const CO_OBJ& obj, const CO_NODE& node) {
-  OD_t* const od = port::index_of(node);
+  OD_t* const od = port::od_of(node);
   return od != nullptr && is_called_by_transfer(*od, node, obj) ? find_transfer(*od, node, obj) : nullptr;
 }
 
@@ -513,7 +514,7 @@ CO_ERR ODStreamReset(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t position) {
 }
 
 CO_ERR ODStreamBegin(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t size) {
-  OD_t* const od = port::index_of(*node);
+  OD_t* const od = port::od_of(*node);
   OD_TRANSFER* const od_transfer = od == nullptr ? nullptr : begin_transfer(*od, *node, *obj, size);
   if (od == nullptr || od_transfer == nullptr) {
     return od == nullptr ? begin_original(*obj, *node, transfer, size) : CO_ERR_OBJ_STATE;
@@ -531,7 +532,7 @@ CO_ERR ODStreamBegin(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, u
 // gets its abort code.
 CO_ERR ODStreamEnd(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
   const Abort code{abort};
-  OD_t* const od = port::index_of(*node);
+  OD_t* const od = port::od_of(*node);
   OD_TRANSFER* const od_transfer = od == nullptr ? nullptr : first_transfer(*od, *obj);
   if (od_transfer == nullptr) {
     return end_original(*obj, *node, transfer, code);

@@ -40,7 +40,7 @@ bool is_free(const CO_NODE& node, const OD_TRANSFER& transfer) {
 }
 
 // Returns the SDO transfer of an object at index that is being served, or null. The node, which may not be initialised
-// yet, is read only if there is a transfer.
+// yet, is accessed only if there is a transfer.
 OD_TRANSFER* find_running(OD_t& od, uint16_t index) {
   for (unsigned n = 0; n < application; ++n) {
     OD_TRANSFER& transfer = od.Transfer[n];
@@ -130,7 +130,7 @@ void end_accesses(OD_t& od, uint16_t index) {
 }
 
 bool is_extension_changed(const CO_NODE& node, const CO_OBJ& obj) {
-  OD_t* const od = port::index_of(node);
+  OD_t* const od = port::od_of(node);
   if (od == nullptr || !is_called_by_transfer(*od, node, obj)) {
     return false;
   }

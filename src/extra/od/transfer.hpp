@@ -51,7 +51,7 @@ void mark_if_of_server(OD_TRANSFER& transfer, const CO_NODE& node);
 // Begins an SDO transfer of total bytes (CO_OBJ_SIZE_UNKNOWN: not indicated). Null: no OD_TRANSFER is free.
 [[nodiscard]] OD_TRANSFER* begin_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj, uint32_t total);
 void end_transfer(OD_TRANSFER& transfer);
-// Begins an access of the application, and ends its access before.
+// Begins an access of the application, which replaces its previous access.
 [[nodiscard]] OD_TRANSFER& begin_access(OD_t& od, const CO_OBJ& obj);
 
 // Ends all accesses to an object that has got another extension. SDO transfers are aborted (0800 0022h) at their next

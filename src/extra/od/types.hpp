@@ -51,8 +51,9 @@ class Writing {
   OD_WRITING_T now_;
 };
 
-// Reports a change after a call of an extension's write function, and sends the TPDOs that were deferred during the
-// call. complete: the object has its new value. by_original: the original type has reported the change already.
+// Reports a change after a call of an extension's write function: marks the TPDOs that map the object, which
+// run_deferred() sends. complete: the object has its new value. by_original: the original type has reported the change
+// already.
 void report_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original);
 
 }  // namespace co::od
@@ -63,7 +64,7 @@ void report_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_orig
 
 namespace co::od {
 
-// Returns the result for an SDO abort code; ODR_GENERAL if no result stands for this code.
+// Returns the result for an SDO abort code; ODR_GENERAL if no result corresponds to it.
 [[nodiscard]] ODR_t result_of(Abort abort);
 
 // Returns the result for the error code of a type function of the object. An abort code that the function has set by

@@ -2,9 +2,9 @@
 // 1023h, OS command, 1024h, its mode, and 1025h, debugger interface. [301:7.5.2.26, 7.5.2.27, 7.5.2.28]
 //
 // CO_OS_COMMAND.Command contains records of a length (two bytes) and a command. The records up to Used are complete. A
-// download writes behind them, so that it has no effect before its end; also behind the last complete command, which is
-// kept after its execution, as long as there is space. An execution is the run of the records from Next to Used: one
-// command, or all stored ones.
+// download is written behind them, so that an aborted download has no effect. An executed command is kept for uploads:
+// a download is written behind it if there is space, otherwise over it. An execution is the run of the records from
+// Next to Used: one command, or all stored ones.
 #include "co_os.h"
 
 #include "base/events.hpp"
@@ -26,7 +26,7 @@ constexpr uint16_t no_download = UINT16_MAX;  // value of Begin
 
 // Bits of CO_OS_COMMAND.Phase.
 constexpr uint8_t busy = 1;      // a command is executed
-constexpr uint8_t starting = 2;  // run() calls Execute: COOsEnd() leaves the next command to it
+constexpr uint8_t starting = 2;  // run() is calling Execute: run(), not COOsEnd(), starts the next command
 
 bool is_executing(const CO_OS_COMMAND& os) { return os.Status == CO_OS_STATUS_EXECUTING; }
 
@@ -117,7 +117,7 @@ void abort_all(CO_NODE& node, CO_OS_COMMAND& os) {
 
 // Command -------------------------------------------------------------------------------------------------------------
 
-// Stops an execution that a reset finds. At power-on the structure is 0.
+// Aborts a command that is being executed when the node is reset. At power-on the structure is 0.
 CO_ERR init_command(CO_OBJ* obj, CO_NODE* node) {
   const CO_ERR err = dict::check_type(*obj, *node, rules::os_command);
   auto* const os = data_of<CO_OS_COMMAND>(*obj);
@@ -133,7 +133,7 @@ CO_ERR init_command(CO_OBJ* obj, CO_NODE* node) {
   return CO_ERR_NONE;
 }
 
-// Without Data a length is returned that begin_command() then refuses.
+// Without Data, returns at most the length of an expedited download, so that begin_command() is called and refuses it.
 uint32_t command_size(CO_OBJ* obj, CO_NODE*, uint32_t width) {
   constexpr uint32_t expedited = 4;
   const auto* const os = data_of<const CO_OS_COMMAND>(*obj);
@@ -151,8 +151,8 @@ uint16_t begin_of_download(const CO_OS_COMMAND& os) {
   return is_kept ? static_cast<uint16_t>(kept) : os.Used;
 }
 
-// Forgets the last command if a download overwrites it.
-void forget_last(CO_OS_COMMAND& os) {
+// Clears the length of the last command if a download overwrites it.
+void clear_overwritten_last(CO_OS_COMMAND& os) {
   if (os.Last >= os.Used) {
     os.LastLength = 0;
   }
@@ -164,7 +164,7 @@ void move_to_records(CO_OS_COMMAND& os) {
   if (os.Begin != os.Used) {
     __builtin_memmove(record_at(os, os.Used) + length_bytes, record_at(os, os.Begin) + length_bytes, os.Written);
     os.Begin = os.Used;
-    forget_last(os);
+    clear_overwritten_last(os);
   }
 }
 
@@ -224,7 +224,7 @@ CO_ERR write_command(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t length) {
     move_to_records(*os);
   }
   if (os->Begin == os->Used) {
-    forget_last(*os);
+    clear_overwritten_last(*os);
   }
   wire::copy(record_at(*os, os->Begin) + length_bytes + os->CommandOffset, static_cast<const uint8_t*>(buffer), n);
   os->CommandOffset += n;
@@ -302,7 +302,7 @@ CO_ERR reset_reply(CO_OBJ* obj, CO_NODE*, uint32_t position) {
   return CO_ERR_NONE;
 }
 
-// Ends an upload whose reply was replaced by that of another command.
+// Reads a piece of the reply. Refuses it if another command has replaced the reply since the upload began.
 CO_ERR read_reply(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t length) {
   auto* const os = data_of<CO_OS_COMMAND>(*obj);
   if (os == nullptr || os->Reply == nullptr) {

@@ -193,6 +193,7 @@ CO_ERR sample(CO_RECORDER& recorder) {
     err = obj::read(*obj, node, reinterpret_cast<uint8_t*>(&number) + above, bits / 8);
   }
   const int32_t value = extend(recorder, number, bits);
+  // The Read function of the type may have changed the configuration.
   if (err == CO_ERR_NONE && recorder.Config.Map == map && (recorder.HasValue == 0 || value != recorder.Value)) {
     change(recorder, value, count_time(node));
   }
@@ -212,7 +213,8 @@ void start_timer(CO_RECORDER& recorder) {
   tmr::start(node, recorder.Tmr, 0, cycle_of(node, recorder.Config), on_time, &recorder);
 }
 
-// Adds a recorder to the list of the node, unless it is there. Before, the state of its timer is not valid.
+// Adds a recorder to the list of the node, unless it is there. Clears its timer first, which may have its state from
+// before CONodeInit().
 void list(CO_NODE& node, CO_RECORDER& recorder) {
   if (is_listed(node, recorder)) {
     return;

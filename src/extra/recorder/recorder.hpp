@@ -39,7 +39,8 @@ void remove_read(CO_RECORDER& recorder);
 // Stops the timers when the node is stopped.
 void on_mode(CO_NODE& node);
 
-// Ends uploads of plots whose entry CODictInit() has moved: the SDO server does not call the End function for them.
+// Finds the variable of CO_TREC_ENABLE in the new table. Ends uploads of plots whose entry CODictInit() has moved: the
+// SDO server does not call the End function for them.
 void on_remap(CO_NODE& node);
 
 inline constexpr Part part = Part().mode(on_mode).remap(on_remap);

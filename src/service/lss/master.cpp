@@ -213,7 +213,7 @@ bool is_known(const CO_LSSM& master) { return master.Part < master.Known; }
   return send(master, frame, then);
 }
 
-// Begins to scan a part of the address; a part that the application knows is only confirmed.
+// Begins to scan a part of the address; a part that the application has given is only confirmed.
 void scan_part(CO_LSSM& master) {
   const bool known = is_known(master);
   master.Address[master.Part] = known ? master.Number[master.Part] : 0;

@@ -78,7 +78,7 @@ constexpr Transition<Response, Handler> rows[] = {
 constexpr StateMachine<State, rows> state_machine(refuse_response);
 
 // Returns whether the response to an initiate request names another object: it belongs to a previous transfer. Servers
-// that do not know a request abort it with index 0, or with the object of their last transfer.
+// that do not support a request abort it with index 0, or with the object of their last transfer.
 bool is_for_another(const CO_CSDO& client, const CO_IF_FRM& frame) {
   const uint32_t key = wire::multiplexer(frame);
   if ((in(state_of(client)) & initiated) == 0 || key == client.Key) {

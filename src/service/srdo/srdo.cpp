@@ -25,7 +25,7 @@ enum Flag : uint8_t {
   failed = 0x08,     // Fault::srdo is raised
   refused = 0x10,    // Fault::srdo_configuration is raised
   routed = 0x20,     // consumer: the routes of its identifiers exist
-  halted = 0x40,     // ended, which the callback does not know yet
+  halted = 0x40,     // ended, the callback was not called yet
 };
 
 bool has(const CO_SRDO& srdo, unsigned flags) { return (srdo.Flags & flags) != 0; }
