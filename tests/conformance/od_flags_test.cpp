@@ -232,6 +232,10 @@ TEST_CASE("OD request: the flag in an extension is 0 from the request until the 
   CHECK(extension.flagsPDO[0] == 0xF7);
   CHECK(node.transmitted(3));
   CHECK(extension.flagsPDO[0] == 0xFF);
+  node.clear(3, 2);
+  node.tx("181#31");
+  CHECK(extension.flagsPDO[0] == 0xF7);
+  CHECK(node.transmitted(3));
   node.request(200, 0x2400);
   node.tx("281#5A");
   CHECK(node.transmitted(200, 0x2400));

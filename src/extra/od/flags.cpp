@@ -175,6 +175,9 @@ void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t f
   }
   const event::Call call(node);
   OD_flagsPDO_t left = (flags & od::sent) >> 1;
+  if (left != 0) {
+    od::mirror(*entry, subIndex, false);
+  }
   for (unsigned tpdo = 0; left != 0; ++tpdo, left >>= 1) {
     if ((left & 1U) != 0) {
       od::request(node, number, tpdo);
