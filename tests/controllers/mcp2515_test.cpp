@@ -573,7 +573,7 @@ TEST_CASE("MCP2515: an error interrupt that persists is disabled until the flags
   CHECK(can.read_all().size() == 1);
 }
 
-TEST_CASE("MCP2515: bus-off by application is left by Reset, automatic recovery is not shortened by it") {
+TEST_CASE("MCP2515: bus-off by application is left by Reset, automatic recovery is not shortened by it or Enable") {
   for (const CO_CAN_RECOVERY recovery : {CO_CAN_RECOVERY_BY_APPLICATION, CO_CAN_RECOVERY_AUTOMATIC}) {
     CAPTURE(int(recovery));
     Bench bench;
@@ -585,6 +585,10 @@ TEST_CASE("MCP2515: bus-off by application is left by Reset, automatic recovery 
     CHECK((mcp2515_of(can).peek(0x0E) & 0xE0) == (is_automatic ? 0x00 : 0x80));  // OPMOD
     can.reset();
     bench.run(100);
+    if (is_automatic) {
+      can.enable(Bench::baud);
+      bench.run(100);
+    }
     CHECK(can.is_off_bus() == is_automatic);
     CHECK(can.send("123#") == (is_automatic ? -1 : 16));
     CHECK(bench.run_until([&] { return !can.is_off_bus(); }));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_can_mcp2515.h
-/// Driver for the CAN controllers MCP2515 and MCP25625 behind SPI (docs/drivers/mcp2515.md): one context for each
-/// controller. C and C++, bare metal or in a task of an RTOS. Tested on a register model, not on silicon.
+/// Driver for the CAN controllers MCP2515 and MCP25625 behind SPI (docs/drivers/mcp2515.md). What it has in common with
+/// other drivers is in co_can_controller.h. Tested on a register model, not on silicon.
 ///
 ///     static const CO_CAN_MCP2515_RATE rates[] = {CO_CAN_MCP2515_RATE_OF(16000000, 500000, 16)};
 ///     static CO_IF_FRM frames[32];
@@ -10,41 +10,24 @@
 ///     ext.Can = &Mcp2515CanDriver;  ext.CanCtx = &can;               // CO_NODE_EXT
 ///     void EXTI0_IRQHandler(void) { ...  COCanMcp2515Interrupt(&can); }  // falling edge of INT
 ///
-/// The board must initialise SPI (mode 0,0, at most 10 MHz) and the pins before CONodeInit(). The bit timings that the
-/// node may use (also by LSS) are a table. In C++ mcp2515_rates.hpp computes and checks it; in C the macro
-/// CO_CAN_MCP2515_RATE_OF() does, with a given number of quanta per bit.
-///
-/// With a rate that is not in the table, or if the controller does not answer, Send returns -1.
+/// The board must initialise SPI (mode 0,0, at most 10 MHz) and the pins before CONodeInit(). If the controller does
+/// not answer, Send returns -1.
 ///
 /// SPI. The loop and the interrupt use SPI without a lock: while a function of the driver uses it, the interrupt only
 /// leaves a note, and that function does the work of the interrupt at its end. Controllers on one SPI bus share a
 /// CO_MCP2515_BUS. An application that has other devices on the bus calls COCanMcp2515Hold() before and
 /// COCanMcp2515Release() after it uses SPI. The interrupt is optional: without it, Read does its work.
 ///
-/// Receiving. Frames are moved from the two receive buffers into the queue at CO_CAN_MCP2515.Frames, from which the
-/// loop reads them. A frame that arrives while a buffer or the queue is full is lost: COCanMcp2515Lost() counts it, and
-/// the node reports CO_CAN_OVERRUN.
-///
 /// The driver computes the two masks and six filters from the identifiers that the node receives. Six identifiers pass
 /// exactly; for more of them some more frames pass, which the node ignores. Filters can be written in Configuration
 /// mode only: if a change on the bus adds an identifier that does not pass yet, the driver leaves the bus for a moment.
 /// A frame of another node in this moment may be lost, and the error counters become 0.
 ///
-/// Sending. Three buffers, whose priorities the driver sets according to the identifiers; see transmit.hpp. A frame
-/// waits for at most one frame of lower priority of this node; frames of one identifier keep their order, and no frame
-/// overtakes the boot-up message. docs/drivers/mcp2515.md has the exceptions.
-///
-/// Bus-off. CO_CAN_MCP2515.Recovery selects the rule: by the application (COIfCanReset(), which every NMT reset calls,
-/// or Enable), or automatic. Send returns -1 until the controller is on the bus again. The node reports CO_CAN_BUS_OFF,
-/// and CO_CAN_RECOVERED when the controller is on the bus again; frames that were accepted before are sent then, after
-/// a recovery by Reset or Enable they are discarded. Read detects CO_CAN_PASSIVE, and CO_CAN_RECOVERED after it.
-/// By application, the controller waits for 11 recessive bits only: let 128 times 11 bits pass before the reset.
-///
-/// Reset and Close abort all frames that wait for transmission. A frame that is on the wire is completed.
+/// In bus-off with recovery by application, the controller waits for 11 recessive bits only: let 128 times 11 bits pass
+/// before the reset.
 ///
 /// Context: the loop, and interrupts on the same CPU that call COCanMcp2515Interrupt(); they may interrupt each other.
-/// All controllers on one SPI bus are used in the same loop.
-/// Owner: context, bus and frames are the caller's and must live as long as the node; one node for each context.
+/// All controllers on one SPI bus are used in the same loop. Owner: the bus is the caller's, too.
 #ifndef CO_CAN_MCP2515_H_
 #define CO_CAN_MCP2515_H_
 
@@ -71,6 +54,7 @@ typedef struct CO_MCP2515_BUS_T {
   /// \cond internal
   struct CO_CAN_MCP2515_T* First;  // controllers that were initialised
   uint8_t Holds;                   // users of the bus: those that were interrupted, too
+  uint8_t HasNotes;                // a controller has IsMissed
   /// \endcond
 } CO_MCP2515_BUS;
 
@@ -126,24 +110,6 @@ typedef struct CO_MCP2515_ACCEPTANCE_T {
   uint32_t Mask[2];
   uint32_t Word[6];
 } CO_MCP2515_ACCEPTANCE;
-
-typedef struct CO_MCP2515_STATE_T {
-  struct CO_CAN_MCP2515_T* Next;  // on the same SPI bus
-  CO_MCP2515_BUS OwnBus;          // without CO_CAN_MCP2515.Bus
-  CO_RING Received;
-  const CO_CAN_MCP2515_RATE* Rate;  // null: off the bus
-  CO_MCP2515_TRANSMIT Transmit;
-  CO_CAN_REPORT Report;
-  CO_MCP2515_ACCEPTANCE Filters;
-  uint8_t Priority[CO_CAN_MAILBOXES];  // TXBnCTRL.TXP
-  uint8_t Flags;                       // last value of EFLG, without overflows
-  uint8_t IsMissed;                    // the interrupt has occurred, its work is not done
-  uint8_t IsUnfinished;                // Read has to do more work
-  uint8_t IsBusOff;                    // the controller stays in Configuration mode until Reset or Enable
-  uint8_t IsAborting;                  // CANCTRL.ABAT is set
-  uint8_t Enabled;                     // CANINTE
-  uint8_t NeedsFilters;                // the filters are written after the recovery from bus-off
-} CO_MCP2515_STATE;
 /// \endcond
 
 /// A controller. Initialise it with zero, then set the members up to Loopback; the driver owns the others.
@@ -160,7 +126,21 @@ typedef struct CO_CAN_MCP2515_T {
   bool Loopback;             ///< self-test: the controller receives its own frames, and no others; it is off the bus
 
   /// \cond internal
-  CO_MCP2515_STATE State;
+  CO_RING Received;
+  const CO_CAN_MCP2515_RATE* Rate;  // null: off the bus
+  CO_MCP2515_TRANSMIT Transmit;
+  CO_CAN_REPORT Report;
+  struct CO_CAN_MCP2515_T* Next;  // on the same SPI bus
+  CO_MCP2515_BUS OwnBus;          // without Bus
+  CO_MCP2515_ACCEPTANCE Filters;
+  uint8_t Priority[CO_CAN_MAILBOXES];  // TXBnCTRL.TXP
+  uint8_t Flags;                       // last value of EFLG, without overflows
+  uint8_t IsMissed;                    // the interrupt has occurred, its work is not done
+  uint8_t IsUnfinished;                // Read has to do more work
+  uint8_t IsBusOff;                    // the controller stays in Configuration mode until Reset or Enable
+  uint8_t IsAborting;                  // CANCTRL.ABAT is set
+  uint8_t Enabled;                     // CANINTE
+  uint8_t NeedsFilters;                // the filters are written after the recovery from bus-off
   /// \endcond
 } CO_CAN_MCP2515;
 

@@ -25,40 +25,25 @@ inline constexpr std::uint8_t all_interrupts = receive_interrupts | transmit_int
 /// \name SPI instructions
 /// \{
 
-/// A transaction: CS is low during its life.
-class Transaction {
- public:
-  explicit Transaction(const Can& can) : can_(can) { can_.Spi->Select(can_.SpiCtx, true); }
-  ~Transaction() { can_.Spi->Select(can_.SpiCtx, false); }
-  Transaction(const Transaction&) = delete;
-  Transaction& operator=(const Transaction&) = delete;
+/// Transfers bytes while CS is low.
+void transact(const Can& can, std::uint8_t* bytes, unsigned number);
+/// Sends bytes of a word, the lowest one first. Returns the bytes that were received instead of them.
+std::uint32_t instruct(const Can& can, std::uint32_t word, unsigned number);
 
-  void transfer(std::uint8_t* bytes, unsigned number) {
-    can_.Spi->Transfer(can_.SpiCtx, bytes, static_cast<std::uint8_t>(number));
-  }
-
- private:
-  const Can& can_;
-};
-
-template <unsigned number>
-void transact(const Can& can, std::uint8_t (&bytes)[number]) {
-  Transaction transaction(can);
-  transaction.transfer(bytes, number);
+inline unsigned read(const Can& can, unsigned address) {
+  return instruct(can, CO_MCP2515_READ | address << 8, 3) >> 16;
 }
-
-/// Two neighbouring registers.
-struct TwoRegisters {
-  std::uint8_t first;
-  std::uint8_t second;
-};
-
-std::uint8_t read(const Can& can, unsigned address);
-TwoRegisters read_two(const Can& can, unsigned address);
-std::uint8_t read_status(const Can& can);
-void write(const Can& can, unsigned address, unsigned value);
-void clear_bits(const Can& can, unsigned address, unsigned bits);
-void command(const Can& can, unsigned instruction);
+/// Returns a register and, in bits 8…15, the next one.
+inline unsigned read_two(const Can& can, unsigned address) {
+  return instruct(can, CO_MCP2515_READ | address << 8, 4) >> 16;
+}
+inline unsigned read_status(const Can& can) { return instruct(can, CO_MCP2515_READ_STATUS, 2) >> 8; }
+inline void write(const Can& can, unsigned address, unsigned value) {
+  static_cast<void>(instruct(can, CO_MCP2515_WRITE | address << 8 | value << 16, 3));
+}
+inline void clear_bits(const Can& can, unsigned address, unsigned bits) {
+  static_cast<void>(instruct(can, CO_MCP2515_BIT_MODIFY | address << 8 | bits << 16, 4));
+}
 void write_control(const Can& can, unsigned bits);
 void enable_interrupts(Can& can, unsigned bits);
 /// Codes a word of mcp2515_filters.hpp for SIDH, SIDL, EID8 and EID0.
@@ -98,7 +83,7 @@ void receive(Can& can, unsigned flags);
 /// \name Interrupts, and the use of SPI by loop and interrupt
 /// \{
 
-inline CO_MCP2515_BUS& bus_of(Can& can) { return can.Bus != nullptr ? *can.Bus : can.State.OwnBus; }
+inline CO_MCP2515_BUS& bus_of(Can& can) { return can.Bus != nullptr ? *can.Bus : can.OwnBus; }
 
 /// An interrupt may occur at any point, but it ends before this context continues, with the same value of Holds.
 void hold(CO_MCP2515_BUS& bus);
@@ -124,9 +109,7 @@ inline bool has_interrupt(const Can& can) {
   return can.Spi->HasInterrupt == nullptr || can.Spi->HasInterrupt(can.SpiCtx);
 }
 
-inline bool is_bus_off(const Can& can) {
-  return can.State.IsBusOff != 0 || (can.State.Flags & CO_MCP2515_EFLG_TXBO) != 0;
-}
+inline bool is_in_bus_off(const Can& can) { return can.IsBusOff != 0 || (can.Flags & CO_MCP2515_EFLG_TXBO) != 0; }
 
 /// \}
 

@@ -22,7 +22,7 @@ class Buffers {
 
   // A buffer without request has been sent if TXnIF is set; otherwise it was aborted.
   transmit::Completed take_completed(unsigned used) {
-    if (used == 0 && can_.State.IsAborting == 0) {
+    if (used == 0 && can_.IsAborting == 0) {
       return {};
     }
     const unsigned status = read_status(can_);
@@ -44,7 +44,7 @@ class Buffers {
     if (acknowledged != 0) {
       clear_bits(can_, CO_MCP2515_CANINTF, acknowledged);
     }
-    if (can_.State.IsAborting != 0 && (status & CO_MCP2515_STATUS_PENDING) == 0) {
+    if (can_.IsAborting != 0 && (status & CO_MCP2515_STATUS_PENDING) == 0) {
       request_abort(false);
     }
     return completed;
@@ -53,7 +53,7 @@ class Buffers {
   // Selects a buffer and its priority, so that the frames are sent in the order of their identifiers. None is returned
   // if the frames in the buffers have neighbouring places in that order.
   unsigned free_mailbox(unsigned used, const CO_IF_FRM& frame) {
-    if (can_.State.IsAborting != 0) {
+    if (can_.IsAborting != 0) {
       return CO_CAN_MAILBOXES;
     }
     int above = -1;
@@ -62,8 +62,8 @@ class Buffers {
       if ((used & (1U << n)) == 0) {
         continue;
       }
-      const int place = can_.State.Priority[n] * CO_CAN_MAILBOXES + static_cast<int>(n);
-      const bool is_before = transmit::rank(can_.State.Transmit.Frame[n].Identifier) < transmit::rank(frame.Identifier);
+      const int place = can_.Priority[n] * CO_CAN_MAILBOXES + static_cast<int>(n);
+      const bool is_before = transmit::rank(can_.Transmit.Frame[n].Identifier) < transmit::rank(frame.Identifier);
       below = is_before && place < below ? place : below;
       above = !is_before && place > above ? place : above;
     }
@@ -72,19 +72,17 @@ class Buffers {
 
   // CS rises at the end of the instruction RTS, which has no other byte. [Errata, 5]
   void request(unsigned n, const CO_IF_FRM& frame) {
-    std::uint8_t bytes[3 + header_bytes + transmit::bytes_at_most] = {
-        CO_MCP2515_WRITE, static_cast<std::uint8_t>(CO_MCP2515_TXCTRL(n)), can_.State.Priority[n]};
-    put_header(frame, bytes + 3);
     const bool is_remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
-    const unsigned length = is_remote ? 0 : transmit::length_of(frame);
-    for (unsigned i = 0; i < length; ++i) {
+    const unsigned length = transmit::length_of(frame);
+    std::uint8_t bytes[3 + header_bytes + transmit::bytes_at_most] = {
+        CO_MCP2515_WRITE, static_cast<std::uint8_t>(CO_MCP2515_TXCTRL(n)), can_.Priority[n]};
+    put_word(word_of(frame.Identifier), bytes + 3);
+    bytes[2 + header_bytes] = static_cast<std::uint8_t>((is_remote ? CO_MCP2515_DLC_RTR : 0) | length);
+    for (unsigned i = 0; i < transmit::bytes_at_most; ++i) {
       bytes[3 + header_bytes + i] = frame.Data[i];
     }
-    {
-      Transaction transaction(can_);
-      transaction.transfer(bytes, 3 + header_bytes + length);
-    }
-    command(can_, CO_MCP2515_RTS(n));
+    transact(can_, bytes, 3 + header_bytes + (is_remote ? 0 : length));
+    static_cast<void>(instruct(can_, CO_MCP2515_RTS(n), 1));
   }
 
   // The controller aborts all buffers but that on the wire, for which take_completed() has no result yet. The request
@@ -92,11 +90,11 @@ class Buffers {
   void abort(unsigned /*mailboxes*/) {
     request_abort(true);
     request_abort(false);
-    can_.State.Transmit.Aborting = can_.State.Transmit.Used;
+    can_.Transmit.Aborting = can_.Transmit.Used;
   }
 
   void request_abort(bool is_requested) {
-    can_.State.IsAborting = is_requested ? 1 : 0;
+    can_.IsAborting = is_requested ? 1 : 0;
     write_control(can_, mode_on_bus(can_) | (is_requested ? CO_MCP2515_ABAT : 0));
   }
 
@@ -121,16 +119,10 @@ class Buffers {
       if ((used & (1U << n)) == 0 && distance < least) {
         least = distance;
         best = n;
-        can_.State.Priority[n] = static_cast<std::uint8_t>(place / CO_CAN_MAILBOXES);
+        can_.Priority[n] = static_cast<std::uint8_t>(place / CO_CAN_MAILBOXES);
       }
     }
     return best;
-  }
-
-  static void put_header(const CO_IF_FRM& frame, std::uint8_t* bytes) {
-    const unsigned remote = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? CO_MCP2515_DLC_RTR : 0;
-    put_word(word_of(frame.Identifier), bytes);
-    bytes[4] = static_cast<std::uint8_t>(remote | transmit::length_of(frame));
   }
 
   Can& can_;
@@ -143,57 +135,54 @@ CO_IF_FRM frame_of(const std::uint8_t* header) {
                            ((header[1] & 0x03U) << 16) | (std::uint32_t{header[2]} << 8) | header[3];
   const bool is_remote = is_extended ? (header[4] & CO_MCP2515_DLC_RTR) != 0 : (header[1] & CO_MCP2515_SIDL_SRR) != 0;
   frame.Identifier = (is_extended ? id | CO_IF_FRM_EXT : id >> 18) | (is_remote ? CO_IF_FRM_RTR : 0);
-  const unsigned length = header[4] & CO_MCP2515_DLC_LENGTH;
-  frame.DLC = static_cast<std::uint8_t>(length < transmit::bytes_at_most ? length : transmit::bytes_at_most);
+  frame.DLC = transmit::length_of(header[4] & CO_MCP2515_DLC_LENGTH);
   return frame;
 }
 
 // Moves a frame into the queue. CS that rises frees the buffer.
 void take_frame(Can& can, unsigned buffer) {
   std::uint8_t bytes[1 + header_bytes] = {static_cast<std::uint8_t>(CO_MCP2515_READ_RX(buffer))};
-  CO_IF_FRM frame{};
-  {
-    Transaction transaction(can);
-    transaction.transfer(bytes, sizeof bytes);
-    frame = frame_of(bytes + 1);
-    if (frame.DLC != 0 && (frame.Identifier & CO_IF_FRM_RTR) == 0) {
-      transaction.transfer(frame.Data, frame.DLC);
-    }
+  can.Spi->Select(can.SpiCtx, true);
+  can.Spi->Transfer(can.SpiCtx, bytes, sizeof bytes);
+  CO_IF_FRM frame = frame_of(bytes + 1);
+  if (frame.DLC != 0 && (frame.Identifier & CO_IF_FRM_RTR) == 0) {
+    can.Spi->Transfer(can.SpiCtx, frame.Data, frame.DLC);
   }
-  static_cast<void>(CORingPut(&can.State.Received, &frame));
+  can.Spi->Select(can.SpiCtx, false);
+  static_cast<void>(CORingPut(&can.Received, &frame));
 }
 
 }  // namespace
 
 void request_waiting(Can& can) {
-  if (can.State.IsBusOff == 0) {
+  if (can.IsBusOff == 0) {
     Buffers buffers(can);
-    transmit::finish(can.State.Transmit, buffers);
+    transmit::finish(can.Transmit, buffers);
   }
 }
 
 bool accept(Can& can, const CO_IF_FRM& frame) {
   Buffers buffers(can);
-  return transmit::accept(can.State.Transmit, buffers, frame);
+  const bool is_accepted = transmit::accept(can.Transmit, buffers, frame);
+  if (can.Transmit.DisplacedNum != 0) {
+    transmit::finish(can.Transmit, buffers);
+  }
+  return is_accepted;
 }
 
 void begin_drop(Can& can) {
-  CO_MCP2515_TRANSMIT& box = can.State.Transmit;
-  Buffers buffers(can);
-  box.DisplacedNum = 0;
-  box.Dropped = box.Used;
-  if (box.Used != 0) {
-    buffers.request_abort(true);
+  can.Transmit.DisplacedNum = 0;
+  can.Transmit.Dropped = can.Transmit.Used;
+  if (can.Transmit.Used != 0) {
+    Buffers(can).request_abort(true);
   }
 }
 
 void await_idle_buffers(Can& can) {
   Buffers buffers(can);
   buffers.request_abort(true);
-  unsigned left = status_reads;
-  while (left != 0 && can.State.IsAborting != 0) {
-    transmit::collect(can.State.Transmit, buffers);
-    --left;
+  for (unsigned n = 0; n < status_reads && can.IsAborting != 0; ++n) {
+    transmit::collect(can.Transmit, buffers);
   }
 }
 
@@ -202,16 +191,11 @@ void await_idle_buffers(Can& can) {
 void receive(Can& can, unsigned flags) {
   bool is_second_older = false;
   for (unsigned n = 0; n < buffer_reads && (flags & receive_interrupts) != 0; ++n) {
-    const bool has_both = (flags & receive_interrupts) == receive_interrupts;
-    const unsigned buffer = (flags & CO_MCP2515_INT_RX(0)) == 0 || (has_both && is_second_older) ? 1 : 0;
-    take_frame(can, buffer);
-    if (buffer == 0) {
-      flags = read_status(can);
-      is_second_older = true;
-    } else {
-      flags &= ~unsigned{CO_MCP2515_INT_RX(1)};
-      is_second_older = false;
-    }
+    const bool has_second = (flags & CO_MCP2515_INT_RX(1)) != 0;
+    const bool is_first = (flags & CO_MCP2515_INT_RX(0)) != 0 && !(has_second && is_second_older);
+    take_frame(can, is_first ? 0 : 1);
+    flags = is_first ? read_status(can) : flags & ~CO_MCP2515_INT_RX(1);
+    is_second_older = is_first;
   }
 }
 

@@ -10,26 +10,26 @@ constexpr unsigned service_rounds = 8;
 
 // In bus-off, the controller begins the recovery itself. Configuration mode prevents it. [MCP2515, 6.6]
 void begin_bus_off(Can& can) {
-  report::count_bus_off(can.State.Report);
+  report::count_bus_off(can.Report);
   if (can.Recovery == CO_CAN_RECOVERY_BY_APPLICATION) {
-    can.State.IsBusOff = 1;
+    can.IsBusOff = 1;
     write_control(can, CO_MCP2515_MODE_CONFIGURATION | CO_MCP2515_ABAT);
   }
 }
 
 // Stores the error flags and counts the events that they show.
-void store_flags(Can& can, std::uint8_t flags) {
+void store_flags(Can& can, unsigned flags) {
   for (unsigned bit = CO_MCP2515_EFLG_RX0OVR; bit <= CO_MCP2515_EFLG_RX1OVR; bit <<= 1) {
     if ((flags & bit) != 0) {
-      report::count_overflow(can.State.Report);
+      report::count_overflow(can.Report);
     }
   }
   if ((flags & overflows) != 0) {
     clear_bits(can, CO_MCP2515_EFLG, flags & overflows);
   }
-  const bool was_bus_off = is_bus_off(can);
-  report::store(can.State.Flags, static_cast<std::uint8_t>(flags & ~overflows));
-  if (!was_bus_off && is_bus_off(can)) {
+  const bool was_bus_off = is_in_bus_off(can);
+  report::store(can.Flags, static_cast<std::uint8_t>(flags & ~overflows));
+  if (!was_bus_off && is_in_bus_off(can)) {
     begin_bus_off(can);
   }
 }
@@ -37,17 +37,17 @@ void store_flags(Can& can, std::uint8_t flags) {
 // Acknowledges the error interrupt, which the data sheet allows to persist while a flag is set: it is disabled then,
 // and Read reads the flags. [MCP2515, 7.7]
 void acknowledge_error(Can& can) {
-  const std::uint8_t before = can.State.Flags;
+  const unsigned before = can.Flags;
   clear_bits(can, CO_MCP2515_CANINTF, CO_MCP2515_INT_ERR);
-  const TwoRegisters now = read_two(can, CO_MCP2515_CANINTF);
-  store_flags(can, now.second);
-  if ((now.first & CO_MCP2515_INT_ERR) != 0 && can.State.Flags != 0 && can.State.Flags == before) {
+  const unsigned now = read_two(can, CO_MCP2515_CANINTF);
+  store_flags(can, now >> 8);
+  if ((now & CO_MCP2515_INT_ERR) != 0 && can.Flags != 0 && can.Flags == before) {
     enable_interrupts(can, all_interrupts & ~CO_MCP2515_INT_ERR);
   }
 }
 
 void unmask_error(Can& can) {
-  if (can.State.Enabled != all_interrupts && can.State.Flags == 0) {
+  if (can.Enabled != all_interrupts && can.Flags == 0) {
     clear_bits(can, CO_MCP2515_CANINTF, CO_MCP2515_INT_ERR);
     enable_interrupts(can, all_interrupts);
   }
@@ -55,60 +55,53 @@ void unmask_error(Can& can) {
 
 // Does what the flags of the controller require, at most one round. Returns false if there is nothing to do.
 bool service_once(Can& can) {
-  const TwoRegisters flags = read_two(can, CO_MCP2515_CANINTF);
-  if (flags.first == no_answer) {
+  const unsigned registers = read_two(can, CO_MCP2515_CANINTF);
+  const unsigned flags = registers & 0xFF;
+  if (flags == no_answer) {
     return false;
   }
-  const unsigned enabled = can.State.Enabled;
-  store_flags(can, flags.second);
+  const unsigned enabled = flags & can.Enabled;
+  store_flags(can, registers >> 8);
   unmask_error(can);
-  receive(can, flags.first);
-  if ((flags.first & transmit_interrupts) != 0) {
+  receive(can, flags);
+  if ((flags & transmit_interrupts) != 0) {
     request_waiting(can);
   }
-  if ((flags.first & enabled & CO_MCP2515_INT_ERR) != 0) {
+  if ((enabled & CO_MCP2515_INT_ERR) != 0) {
     acknowledge_error(can);
   }
-  return (flags.first & enabled) != 0;
+  return enabled != 0;
 }
 
 // Does the work of the interrupts that have occurred while SPI was in use.
-void work_off(const CO_MCP2515_BUS& bus) {
-  for (Can* can = bus.First; can != nullptr; can = can->State.Next) {
-    if (report::load(can->State.IsMissed) != 0) {
-      report::store(can->State.IsMissed, std::uint8_t{0});
+void work_off(CO_MCP2515_BUS& bus) {
+  report::store(bus.HasNotes, std::uint8_t{0});
+  for (Can* can = bus.First; can != nullptr; can = can->Next) {
+    if (report::load(can->IsMissed) != 0) {
+      report::store(can->IsMissed, std::uint8_t{0});
       service(*can);
     }
   }
 }
 
-bool has_notes(const CO_MCP2515_BUS& bus) {
-  for (const Can* can = bus.First; can != nullptr; can = can->State.Next) {
-    if (report::load(can->State.IsMissed) != 0) {
-      return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 void service(Can& can) {
-  if (can.State.Rate == nullptr) {
+  if (can.Rate == nullptr) {
     return;
   }
   bool is_unfinished = true;
   for (unsigned n = 0; n < service_rounds && is_unfinished; ++n) {
     is_unfinished = service_once(can) && has_interrupt(can);
   }
-  can.State.IsUnfinished = is_unfinished ? 1 : 0;
+  can.IsUnfinished = is_unfinished ? 1 : 0;
 }
 
 void hold(CO_MCP2515_BUS& bus) { report::store(bus.Holds, static_cast<std::uint8_t>(bus.Holds + 1)); }
 
 void release(CO_MCP2515_BUS& bus) {
   report::store(bus.Holds, static_cast<std::uint8_t>(bus.Holds - 1));
-  while (bus.Holds == 0 && has_notes(bus)) {
+  while (bus.Holds == 0 && report::load(bus.HasNotes) != 0) {
     hold(bus);
     work_off(bus);
     report::store(bus.Holds, static_cast<std::uint8_t>(bus.Holds - 1));

@@ -8,11 +8,12 @@ namespace {
 
 // Writes neighbouring filters or masks.
 void write_words(const Can& can, unsigned address, const std::uint32_t* words, unsigned number) {
-  for (unsigned n = 0; n < number; ++n) {
-    std::uint8_t bytes[6] = {CO_MCP2515_WRITE, static_cast<std::uint8_t>(address + 4 * n)};
-    put_word(words[n], bytes + 2);
-    transact(can, bytes);
+  std::uint8_t bytes[2 + 3 * 4] = {CO_MCP2515_WRITE, static_cast<std::uint8_t>(address)};
+  std::uint8_t* next = bytes + 2;
+  for (unsigned n = 0; n < number; ++n, next += 4) {
+    put_word(words[n], next);
   }
+  transact(can, bytes, 2 + 4 * number);
 }
 
 bool await_configuration(const Can& can) {
@@ -25,38 +26,17 @@ bool await_configuration(const Can& can) {
 
 }  // namespace
 
-std::uint8_t read(const Can& can, unsigned address) {
-  std::uint8_t bytes[] = {CO_MCP2515_READ, static_cast<std::uint8_t>(address), 0};
-  transact(can, bytes);
-  return bytes[2];
+void transact(const Can& can, std::uint8_t* bytes, unsigned number) {
+  can.Spi->Select(can.SpiCtx, true);
+  can.Spi->Transfer(can.SpiCtx, bytes, static_cast<std::uint8_t>(number));
+  can.Spi->Select(can.SpiCtx, false);
 }
 
-TwoRegisters read_two(const Can& can, unsigned address) {
-  std::uint8_t bytes[] = {CO_MCP2515_READ, static_cast<std::uint8_t>(address), 0, 0};
-  transact(can, bytes);
-  return {bytes[2], bytes[3]};
-}
-
-std::uint8_t read_status(const Can& can) {
-  std::uint8_t bytes[] = {CO_MCP2515_READ_STATUS, 0};
-  transact(can, bytes);
-  return bytes[1];
-}
-
-void write(const Can& can, unsigned address, unsigned value) {
-  std::uint8_t bytes[] = {CO_MCP2515_WRITE, static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value)};
-  transact(can, bytes);
-}
-
-void clear_bits(const Can& can, unsigned address, unsigned bits) {
-  std::uint8_t bytes[] = {CO_MCP2515_BIT_MODIFY, static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(bits),
-                          0};
-  transact(can, bytes);
-}
-
-void command(const Can& can, unsigned instruction) {
-  std::uint8_t bytes[] = {static_cast<std::uint8_t>(instruction)};
-  transact(can, bytes);
+std::uint32_t instruct(const Can& can, std::uint32_t word, unsigned number) {
+  std::uint8_t bytes[4];
+  transmit::unpack(word, bytes);
+  transact(can, bytes, number);
+  return transmit::word_at(bytes);
 }
 
 void write_control(const Can& can, unsigned bits) {
@@ -65,7 +45,7 @@ void write_control(const Can& can, unsigned bits) {
 
 void enable_interrupts(Can& can, unsigned bits) {
   write(can, CO_MCP2515_CANINTE, bits);
-  can.State.Enabled = static_cast<std::uint8_t>(bits);
+  can.Enabled = static_cast<std::uint8_t>(bits);
 }
 
 void put_word(std::uint32_t word, std::uint8_t* bytes) {
@@ -77,7 +57,7 @@ void put_word(std::uint32_t word, std::uint8_t* bytes) {
 }
 
 void reset_controller(const Can& can) {
-  command(can, CO_MCP2515_RESET);
+  static_cast<void>(instruct(can, CO_MCP2515_RESET, 1));
   static_cast<void>(await_configuration(can));
   write_control(can, CO_MCP2515_MODE_CONFIGURATION);
 }
@@ -91,24 +71,25 @@ void enter_configuration(Can& can) {
   if (!await_configuration(can)) {
     reset_controller(can);
   }
-  can.State.IsAborting = 0;
-  transmit::take_back(can.State.Transmit);
+  can.IsAborting = 0;
+  transmit::take_back(can.Transmit);
 }
 
 bool write_configuration(Can& can, const CO_CAN_MCP2515_RATE& rate) {
-  std::uint8_t timing[] = {CO_MCP2515_WRITE, CO_MCP2515_CNF3, static_cast<std::uint8_t>(rate.Timing),
-                           static_cast<std::uint8_t>(rate.Timing >> 8), static_cast<std::uint8_t>(rate.Timing >> 16)};
-  transact(can, timing);
-  std::uint8_t present[] = {CO_MCP2515_READ, CO_MCP2515_CNF3, 0, 0, 0, 0};  // CNF3, CNF2, CNF1, and one byte more
-  transact(can, present);
+  std::uint8_t timing[] = {CO_MCP2515_WRITE, CO_MCP2515_CNF3, 0, 0, 0, 0};  // CNF3, CNF2, CNF1, and one byte to read
+  transmit::unpack(rate.Timing, timing + 2);
+  transact(can, timing, 5);
+  timing[0] = CO_MCP2515_READ;
+  timing[1] = CO_MCP2515_CNF3;
+  transact(can, timing, sizeof timing);
   write(can, CO_MCP2515_RXCTRL(0), CO_MCP2515_RXCTRL_BUKT);
   write(can, CO_MCP2515_RXCTRL(1), 0);
-  write_words(can, CO_MCP2515_FILTERS, can.State.Filters.Word, 3);
-  write_words(can, CO_MCP2515_FILTERS3, can.State.Filters.Word + 3, 3);
-  write_words(can, CO_MCP2515_MASKS, can.State.Filters.Mask, receive_buffers);
+  write_words(can, CO_MCP2515_FILTERS, can.Filters.Word, 3);
+  write_words(can, CO_MCP2515_FILTERS3, can.Filters.Word + 3, 3);
+  write_words(can, CO_MCP2515_MASKS, can.Filters.Mask, receive_buffers);
   enable_interrupts(can, all_interrupts);
-  can.State.NeedsFilters = 0;
-  return ((rate.Timing ^ transmit::word_at(present + 2)) & 0xFFFFFF) == 0;
+  can.NeedsFilters = 0;
+  return ((rate.Timing ^ transmit::word_at(timing + 2)) & 0xFFFFFF) == 0;
 }
 
 }  // namespace co::mcp2515
