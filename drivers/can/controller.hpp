@@ -54,13 +54,6 @@ namespace co::report {
 
 enum class State : std::uint8_t { active, passive, bus_off };
 
-/// State of a controller at one moment.
-struct Observation {
-  State state;
-  CO_CAN_ERROR_COUNTERS errors;
-  std::uint32_t lost;  ///< frames lost since Enable
-};
-
 inline constexpr std::uint32_t class_controller = 0x004;
 inline constexpr std::uint32_t class_bus_off = 0x040;
 inline constexpr std::uint32_t class_restarted = 0x100;
@@ -131,12 +124,6 @@ bool take(CO_CAN_REPORT& report, State state, std::uint32_t lost, Errors errors,
   report.Reported = static_cast<std::uint8_t>(state);
   report.ReportedLost = lost;
   return true;
-}
-
-/// Likewise, with error counters that were read before.
-inline bool take(CO_CAN_REPORT& report, const Observation& now, CO_IF_FRM& frame) {
-  return take(
-      report, now.state, now.lost, [&now] { return now.errors; }, frame);
 }
 
 /// \endcond
