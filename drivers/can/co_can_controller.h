@@ -30,7 +30,7 @@
 /// Context: the loop, and interrupts of one priority on the same CPU that call the interrupt function of the driver.
 /// Owner: context, rates and frames are the caller's and must live as long as the node; one node for each context.
 ///
-/// A new driver has its registers and a port for controller::Driver (controller.hpp).
+/// A new driver has its registers and a port for controller::Driver; controller.hpp has the rules.
 #ifndef CO_CAN_CONTROLLER_H_
 #define CO_CAN_CONTROLLER_H_
 

@@ -8,6 +8,28 @@
 /// Namespace report reports states of a CAN controller and lost frames to the node, as error frames that Read returns,
 /// in the coding of SocketCAN. The tables of the drivers contain CONodeCanReport(), which calls CONodeCanEvent() for
 /// each of their events.
+///
+/// A new driver has a C header with the context, a port for Driver, and an interrupt function. Rules:
+/// - Driver uses these members of the context: Rates (elements with Baud), RateNum, Rate, Received and Report. Rate is
+///   null while the controller is off the bus, also if join_bus() has failed; Send returns -1 then.
+/// - Driver calls the port in the loop, without a lock. A member of the port that the interrupt could disturb excludes
+///   it: it disables the interrupts in the controller (bxcan), or the interrupt leaves its work to the loop (mcp2515,
+///   for SPI). Members of the port call each other.
+/// - The interrupt function returns if Rate is null. It calls CORingPut(), count_overflow() and count_bus_off(), and
+///   shares other members with the loop by atomic.hpp. The loop calls CORingInit() and restart() while the interrupt is
+///   excluded: in join_bus(), discard() and before Received is used the first time.
+/// - Init may be called again, in any state of the controller. Each wait ends after a fixed number of reads: a
+///   controller that does not answer must not block the node.
+/// - Bus-off: is_bus_off() is true until the controller is on the bus again. If no interrupt announces the end,
+///   is_bus_off() and poll() read it. A bus-off shorter than a cycle of the loop is reported if it was counted.
+///   join_bus() in bus-off with the present rate discards all frames and does not shorten an automatic recovery.
+///   accept() refuses a frame if bus-off has begun since is_bus_off().
+/// - Filters: identifiers may occur several times. Off the bus the port stores the filters, and join_bus() writes them;
+///   in bus-off they may be written after it. A change on the bus loses no frame that was received or accepted before.
+/// - Frames: transmit.hpp has is_extended() and length_of(), as a DLC may exceed 8. Remote frames have no data. Frames
+///   of CAN FD are discarded. Frames of one identifier keep their order, also if there are several receive FIFOs.
+/// - Tests: a model in tests/models and a Kind in tests/controllers/bench.hpp, for which the cases of all controllers
+///   run. A controller behind SPI has its model behind the functions that access it.
 #ifndef CO_DRIVERS_CONTROLLER_HPP_
 #define CO_DRIVERS_CONTROLLER_HPP_
 
@@ -132,8 +154,15 @@ bool take(CO_CAN_REPORT& report, State state, std::uint32_t lost, Errors errors,
 namespace co::controller {
 /// \cond internal
 
-/// accept() and discard() of ports that can disable interrupts; base class of the port. Port has the members of
-/// Driver's parameter, and Mailboxes, the class for transmit.hpp, whose constructor has the parameter Can&.
+/// accept() and discard() of ports that can disable interrupts; base class of the port. Port has the other members of
+/// Driver's parameter, Mailboxes, the class for transmit.hpp, whose constructor has the parameter Can&, and:
+///
+///     void receive(Can& can);  // moves received frames into the queue
+///     void disable_interrupts(Can& can);
+///     void enable_receive_interrupts(Can& can);  // those that do not use the mailboxes
+///     void enable_interrupts(Can& can);
+///
+/// The context has Transmit, Frames and FrameNum, too.
 template <typename Port, typename Can>
 struct MailboxPort {
   // Discards received frames and counters. Called while the interrupts are disabled.
@@ -167,10 +196,9 @@ struct MailboxPort {
 ///     void init(Can& can);                                  // all registers; off the bus, filters pass all frames
 ///     void leave_bus(Can& can);                             // after the frame on the wire; sets Rate to null
 ///     void join_bus(Can& can, const CO_CAN_BXCAN_RATE& rate);  // sets Rate; leaves the bus before, and ends bus-off
-///     bool is_bus_off(const Can& can);
+///     bool is_bus_off(const Can& can);                      // or with Can&, as errors(), to reserve SPI
 ///     report::State poll(Can& can);                         // work of the loop, called by Read; returns the state
 ///     CO_CAN_ERROR_COUNTERS errors(const Can& can);
-///     void receive(Can& can);                               // moves received frames into the queue
 ///     bool accept(Can& can, const CO_IF_FRM& frame);        // requests the frame, or refuses it
 ///     void discard(Can& can);                               // on the bus: discards all frames and counters
 ///     void filter(Can& can, const std::uint32_t* ids, unsigned num);
