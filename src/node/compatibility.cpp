@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Default callbacks: weak symbols, which definitions of the application replace; those of services that can be switched
-// off are in their files. Version.
+// Default callbacks: weak symbols, which definitions of the application replace; those of storage,
+// LED, GFC, SRDO, LSS and TIME are in the files of these. Version. CONodeInit() and CONodeInitEx().
 #include "co_core.h"
 #include "co_ver.h"
 #include "hal/port.hpp"

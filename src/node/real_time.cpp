@@ -97,7 +97,9 @@ extern "C" void CONodeRealTime(CO_NODE* node) {
     return;
   }
   const unsigned ends =
-      node->State == event::running ? unsigned{event::mode} : 0U;  // else the node works: the mainline enters it
+      node->State == event::running
+          ? unsigned{event::mode}
+          : 0U;  // else the node works, without the lock while a memory is busy: the mainline enters the state
   {
     const event::Working working(*node);
     transmit::flush(*node);

@@ -25,6 +25,7 @@ void unlock_objects(CO_NODE& node) {
   event::run_deferred(node);
 }
 
+// OD_lock() stores no extension: CONodeInit() must not be called between it and OD_unlock().
 void release_node_lock(CO_NODE& node) {
   event::run_deferred(node);
   port::unlock_node(node, node.Ext);

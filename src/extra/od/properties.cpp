@@ -127,13 +127,13 @@ Kind kind_of(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE* type) {
 }  // namespace
 
 bool can_seek(const CO_OBJ_TYPE& type) {
-  const CO_OBJ_TYPE_EX* const transfer = extended_type(&type);
-  return transfer == nullptr ? type.Reset != nullptr : transfer->Reset != nullptr;
+  const CO_OBJ_TYPE_EX* const type_ex = extended_type(&type);
+  return type_ex == nullptr ? type.Reset != nullptr : type_ex->Reset != nullptr;
 }
 
 CO_ERR seek(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type, uint32_t position) {
-  const CO_OBJ_TYPE_EX* const transfer = extended_type(&type);
-  const CO_OBJ_RESET_FUNC reset = transfer == nullptr ? type.Reset : transfer->Reset;
+  const CO_OBJ_TYPE_EX* const type_ex = extended_type(&type);
+  const CO_OBJ_RESET_FUNC reset = type_ex == nullptr ? type.Reset : type_ex->Reset;
   return reset == nullptr ? CO_ERR_NONE : reset(&obj, &node, position);
 }
 

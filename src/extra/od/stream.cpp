@@ -215,7 +215,7 @@ ODR_t read(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANS
 
 // Writing -------------------------------------------------------------------------------------------------------------
 
-constexpr uint32_t short_text = 8;  // bytes of a text that the function gets in one call, with its terminating zero
+constexpr uint32_t short_text = 8;  // bytes, without the terminating zero: as many as a PDO has
 
 // Sets dataLength to the length of the download, by which the function detects the last piece. A terminating zero is
 // added to a text if its capacity allows that. Returns the bytes of this zero.

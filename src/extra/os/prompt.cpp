@@ -91,7 +91,8 @@ uint8_t take_oldest(CO_OS_OUTPUT& output) {
   return character;
 }
 
-// Removes the character that a TPDO has read, unless its frame is queued, or was queued until Operational ended.
+// Removes the character that a TPDO has read, unless its frame is queued, or was seen queued before Operational ended.
+// A frame that is queued and withdrawn within a millisecond is taken for sent: its character is lost.
 void settle(CO_OS_OUTPUT& output, Outlet outlet) {
   if (output.Taken == 0) {
     return;

@@ -12,7 +12,7 @@ namespace {
 
 using namespace co;
 
-// Member of CO_RECORDER_CONFIG, or of CO_RECORDER, that an entry contains.
+// Member of CO_RECORDER_CONFIG that an entry contains.
 struct Member {
   uint8_t offset;
   uint8_t bytes;  // 0: no member
