@@ -16,6 +16,8 @@ from pathlib import Path
 MODULES = ["wire", "hal", "base", "dictionary", "storage", "service", "extra", "node"]
 # A service that extends another one includes it.
 EXTENDS = {"mpdo": "pdo"}
+# Public headers of src/extra.
+OF_EXTRAS = {"co_od.h", "co_od_2020.h", "co_os.h", "co_recorder.h"}
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
 # Headers of the stack that codict includes: they need no configuration.
 CODICT_STACK = {"lexican/detail/objects.h", "lexican/srdo.hpp"}
@@ -73,10 +75,12 @@ class Tree:
     def in_src(self, file, name, system):
         if system:
             return None if name in FREESTANDING else "not a freestanding header"
-        if self.is_public(name):
-            return None
         source = self.root / "src"
         here = file.relative_to(source).parts
+        if name in OF_EXTRAS and here[0] != "extra":
+            return "a header of an extra"
+        if self.is_public(name):
+            return None
         there = Path(name).parts
         if there[0] not in MODULES or not (source / name).is_file():
             return "neither a public header nor module/file"
@@ -137,6 +141,7 @@ CLEAN = {
     "src/dictionary/dict.hpp": "",
     "src/dictionary/types/string.cpp": '#include "dictionary/dict.hpp"\n#define CO_ROW(a) a,\n#undef CO_ROW\n',
     "src/storage/para.cpp": '#include "dictionary/dict.hpp"\n',
+    "include/co_od.h": "",
     "src/service/nmt/nmt.hpp": '#include "dictionary/dict.hpp"\n',
     "src/service/pdo/pdo.cpp": '#include "service/pdo/pdo.hpp"\n',
     "src/service/pdo/pdo.hpp": "",
@@ -164,6 +169,7 @@ PLANTED = {
     "a service includes one that extends it": ("src/service/pdo/pdo.cpp", '#include "service/mpdo/mpdo.hpp"'),
     "a service that extends another one includes a third one": ("src/service/mpdo/mpdo.cpp", '#include "service/nmt/nmt.hpp"'),
     "a service includes the OD access interface": ("src/service/pdo/pdo.cpp", '#include "extra/od/index.hpp"'),
+    "the dictionary includes the header of an extra": ("src/dictionary/dict.cpp", '#include "co_od.h"'),
     "a source needs a hosted library": ("src/dictionary/dict.cpp", "#include <vector>"),
     "a source includes by a relative path": ("src/dictionary/dict.cpp", '#include "../wire/sdo.hpp"'),
     "a source defines a macro": ("src/dictionary/dict.cpp", "#define FAST 1"),

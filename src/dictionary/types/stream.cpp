@@ -5,12 +5,6 @@
 #include "co_string.h"
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
-#if USE_OD
-#include "co_od.h"
-
-// Weak: a comparison with its address does not link the function.
-#pragma weak ODTypeInit
-#endif
 
 namespace co::stream {
 
@@ -34,17 +28,10 @@ Abort check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFE
   return abort == Abort::none && is_missing(*obj) ? Abort::not_stored : abort;
 }
 
-#if USE_OD
-const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) {
-  const bool is_extensible = obj.Type->Init != nullptr && obj.Type->Init == ODTypeInit;
-  return is_extensible ? reinterpret_cast<const OD_TYPE*>(obj.Type)->Original : obj.Type;
-}
-#else
-const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) { return obj.Type; }
-#endif
-
 CO_ERR init(CO_OBJ* obj, CO_NODE_T* node) {
-  node->PassStream = obj::pass_stream;
+  if (USE_OD == 0 || node->PassStream == nullptr) {  // extensible streams have a function that calls it
+    node->PassStream = obj::pass_stream;
+  }
   const CO_ERR err = dict::check_type(*obj, *node, rules::variable);
   if (err != CO_ERR_NONE) {
     return err;

@@ -30,8 +30,12 @@ CO_ERR init(CO_OBJ* obj, CO_NODE_T* node);
 // Reset function of the stream types: calls seek().
 CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
 
-// Returns the type of an entry or, if the entry can be extended (co_od.h), its original type; null: it has none.
+// Returns the type of an entry or, if the entry can be extended (src/extra/od), its original type; null: it has none.
+#if USE_OD
 [[nodiscard]] const CO_OBJ_TYPE* original_type(const CO_OBJ& obj);
+#else
+[[nodiscard]] inline const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) { return obj.Type; }
+#endif
 
 // Checks an object like access::check(); also refuses a stream of this library whose Data is null.
 [[nodiscard]] Abort check(const CO_NODE_T& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer);
@@ -63,8 +67,8 @@ namespace co::obj {
 // Calls a Read or Write function of the object's type; a stream is accessed from its beginning.
 [[nodiscard]] CO_ERR access_whole(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes);
 
-// Like access_whole(), for a stream: an access of the application with COObjRdBufCont() or COObjWrBufCont(), to this
-// stream or to another extended stream, keeps its position. Value of CO_NODE.PassStream, which the Init functions of
+// Like access_whole(), for a stream: an access of the application with COObjRdBufCont() or COObjWrBufCont() keeps its
+// position. Value of CO_NODE.PassStream, which the Init functions of
 // the library's streams set, so that only programs with such streams link it.
 CO_ERR pass_stream(CO_OBJ* source, CO_NODE_T* owner, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes);
 

@@ -8,6 +8,7 @@
 #include "wire/bytes.hpp"
 
 // Weak: a comparison with the address of a type does not link the type.
+#pragma weak ODTypeInit
 #pragma weak COTInt8
 #pragma weak COTInt16
 #pragma weak COTInt32
@@ -29,6 +30,11 @@
 #pragma weak COTUnicodeString
 #pragma weak COTDomain
 #pragma weak ODTNumber
+
+const CO_OBJ_TYPE* co::stream::original_type(const CO_OBJ& obj) {
+  const bool has_original = obj.Type->Init != nullptr && obj.Type->Init == ODTypeInit;
+  return has_original ? reinterpret_cast<const OD_TYPE*>(obj.Type)->Original : obj.Type;
+}
 
 namespace co::od {
 namespace {

@@ -6,6 +6,7 @@
 #include "co_assert.h"
 #include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
+#include "dictionary/types/stream.hpp"
 #include "extra/od/properties.hpp"
 #include "hal/port.hpp"
 
@@ -142,6 +143,22 @@ OD_TRANSFER& begin_access(OD_t& od, const CO_OBJ& obj) {
   OD_TRANSFER& own = od.Transfer[application];
   own = {&obj, 0, 0, 0, CO_OBJ_SIZE_UNKNOWN, 0, 0};
   return own;
+}
+
+// All extended streams share one OD_TRANSFER for the application. It is not restored if an object has got another
+// extension meanwhile, because that may have ended the application's access (OD_extension_init()).
+CO_ERR pass_stream(CO_OBJ* source, CO_NODE* node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes) {
+  OD_t* const od = port::od_of(*node);
+  if (od == nullptr) {
+    return obj::pass_stream(source, node, function, data, bytes);
+  }
+  const uint16_t changes = od->Changes;
+  const OD_TRANSFER before = od->Transfer[application];
+  const CO_ERR err = obj::pass_stream(source, node, function, data, bytes);
+  if (od->Changes == changes) {
+    od->Transfer[application] = before;
+  }
+  return err;
 }
 
 }  // namespace co::od

@@ -67,4 +67,8 @@ void end_accesses(OD_t& od, uint16_t index);
   return &transfer == &od.Transfer[OD_TRANSFER_N - 1];
 }
 
+// Calls obj::pass_stream(), and then restores the application's own access. Value of CO_NODE.PassStream, which the Init
+// function of extensible types sets.
+CO_ERR pass_stream(CO_OBJ* source, CO_NODE* node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes);
+
 }  // namespace co::od

@@ -8,6 +8,7 @@
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
 #include "dictionary/types/stream.hpp"
+#include "extra/od/transfer.hpp"
 #include "service/pdo/pdo.hpp"
 
 #if USE_OD
@@ -93,7 +94,7 @@ using namespace co::od;
 extern "C" {
 
 CO_ERR ODTypeInit(CO_OBJ_T* obj, CO_NODE_T* node) {
-  node->PassStream = obj::pass_stream;
+  node->PassStream = od::pass_stream;
   const CO_OBJ_TYPE* const type = original_type(*obj);
   if (type == nullptr || type->Init == nullptr) {
     return CO_ERR_NONE;
