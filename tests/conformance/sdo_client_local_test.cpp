@@ -63,6 +63,30 @@ TEST_CASE("SDO client, own node: a value is written in the byte order of the bus
   CHECK(node.objects.u64 == 0x0807060504030201);
 }
 
+#if USE_PARA
+
+TEST_CASE("SDO client, own node: a write to an object of a parameter group makes 1020h 0, as one by the network [S7]") {
+  std::uint32_t date = 5;
+  std::uint32_t time = 6;
+  std::uint32_t grouped = 1;
+  CO_PARA group = {0, sizeof grouped, &grouped, nullptr, CO_RESET_NODE, nullptr, CO_PARA___E};
+  const auto data = [](const void* address) { return CO_DATA{reinterpret_cast<std::uintptr_t>(address)}; };
+  Setup setup = Setup().only_small().may_change(0x1020, 1).may_change(0x1020, 2);
+  setup.with({CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, data(&group)})
+      .with({CO_KEY(0x1020, 1, CO_OBJ_____RW), CO_TVERIFY_CONFIG, data(&date)})
+      .with({CO_KEY(0x1020, 2, CO_OBJ_____RW), CO_TVERIFY_CONFIG, data(&time)})
+      .with({CO_KEY(0x2300, 1, CO_OBJ_____RW), CO_TUNSIGNED32, data(&grouped)});
+  Local node(std::move(setup));
+  CHECK(node.write(0x2004, 0, {1, 2, 3, 4}).code == 0);
+  CHECK(date == 5);
+  CHECK(node.write(0x2300, 1, {7, 0, 0, 0}).code == 0);
+  CHECK(grouped == 7);
+  CHECK(date == 0);
+  CHECK(time == 0);
+}
+
+#endif
+
 TEST_CASE("SDO client, own node: node-ID relative objects have the values that SDO transfers have") {
   Local node;
   CHECK(node.read(0x2034, 0, 4).data == Bytes{0x81, 0x01, 0x00, 0x00});

@@ -6,121 +6,91 @@
 #include "dictionary/dict.hpp"
 #include "dictionary/types/stream.hpp"
 #include "service/sdo_client/transfer.hpp"
+#include "service/sdo_server/transfer.hpp"
 
 #if USE_CSDO && USE_CSDO_OWN
 
 namespace co::sdo_client {
 namespace {
 
-// Returns whether the object is a number: it is converted between the byte order of the bus, which the buffer has, and
-// that of the CPU, and is accessed in one call. Longer values and streams are opened first.
-bool is_value(const CO_OBJ& obj, uint32_t size) { return !obj::is_stream(obj) && size <= sizeof(uint64_t); }
+using sdo_server::begin_data;
+using sdo_server::transfer_piece;
 
-// Determines the final size of a stream of unknown size when the buffer is full: if the size is still unknown, reads
-// one byte more. A stream that has further bytes does not fit.
-CO_ERR find_end(CO_OBJ& obj, CO_NODE& node, uint32_t& size) {
-  size = obj::size(obj, node, 0);
-  if (!obj::is_unknown(size)) {
-    return CO_ERR_NONE;
-  }
-  uint8_t more = 0;
-  const CO_ERR err = obj::read(obj, node, &more, sizeof more);
-  size = obj::size(obj, node, 0);
-  return err;
-}
-
-Abort read_all(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
+// Checks the length of an object to be read or written, and sets Size. Returns an abort code.
+Abort check_size(const CO_CSDO& client, CO_SDO& channel, CO_OBJ& obj) {
   CO_NODE& node = *client.Node;
-  CO_ERR err = is_value(obj, size) ? CO_ERR_NONE : COObjRdBufStart(&obj, &node, client.Buf, 0);
-  if (err == CO_ERR_NONE && size != 0) {
-    err = obj::read(obj, node, client.Buf, obj::is_unknown(size) ? client.Size : size);
+  channel.Size = client.Size;
+  if (!has(client, is_upload)) {
+    return access::check_length(node, obj, client.Size);
   }
-  if (err == CO_ERR_NONE && obj::is_unknown(size)) {
-    err = find_end(obj, node, size);
+  channel.Size = access::size(obj, node, 0);
+  if (obj::is_no_size(obj, channel.Size)) {
+    return access::abort_for(node, CO_ERR_TYPE_RD);
   }
-  if (err != CO_ERR_NONE) {
-    return access::report_failure(node, CO_OBJ_UPLOAD, err);
-  }
-  if (size > client.Size) {
-    return Abort::memory;
-  }
-  if (is_value(obj, size)) {
-    wire::swap_host(client.Buf, size);
-  }
-  client.Total = size;
-  client.Num = size;
-  return Abort::none;
+  return !obj::is_unknown(channel.Size) && channel.Size > client.Size ? Abort::memory : Abort::none;
 }
 
-Abort write_all(CO_CSDO& client, CO_OBJ& obj) {
-  CO_NODE& node = *client.Node;
-  uint8_t value[sizeof(uint64_t)];
-  uint8_t* from = client.Buf;
-  CO_ERR err = CO_ERR_NONE;
-  if (is_value(obj, client.Size)) {
-    __builtin_memcpy(value, client.Buf, client.Size);
-    wire::swap_host(value, client.Size);
-    from = value;
-  } else {
-    err = obj::seek(obj, node, 0);
-    if (err == CO_ERR_NONE) {
-      err = obj::write(obj, node, client.Buf, 0);
-    }
+// Reads or writes an object in pieces: all bytes, and for an object of unknown size that fills the buffer one more,
+// which must not exist.
+Abort transfer_pieces(const CO_CSDO& client, CO_SDO& channel, CO_OBJ& obj) {
+  const Abort abort = begin_data(channel, obj, channel.Value, 0);
+  if (abort != Abort::none || channel.Size == 0) {
+    return abort;
   }
-  if (err == CO_ERR_NONE && client.Size != 0) {
-    err = obj::write(obj, node, from, client.Size);
+  const bool is_unknown = obj::is_unknown(channel.Size);
+  const Abort read = transfer_piece(channel, 0, client.Buf, is_unknown ? client.Size : channel.Size);
+  if (read != Abort::none || !is_unknown || !obj::is_unknown(channel.Size)) {
+    return read;
   }
-  client.Num = client.Size;
-  return err == CO_ERR_NONE ? Abort::none : access::report_failure(node, CO_OBJ_DOWNLOAD, err);
+  return transfer_piece(channel, client.Size, channel.Value, 1);
 }
 
-Abort check_upload(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
-  if (obj::is_no_size(obj, size)) {
-    return access::abort_for(*client.Node, CO_ERR_TYPE_RD);
+// Reads or writes a number, which the buffer has in the byte order of the bus.
+Abort transfer_value(const CO_CSDO& client, CO_SDO& channel, CO_OBJ& obj) {
+  uint8_t* data = client.Buf;
+  if (!has(client, is_upload)) {
+    data = channel.Value;
+    wire::copy(data, client.Buf, channel.Size);
   }
-  return !obj::is_unknown(size) && size > client.Size ? Abort::memory : Abort::none;
+  return begin_data(channel, obj, data, channel.Size);
 }
 
-// Checks the length before the type's Begin function is called.
-Abort check_size(CO_CSDO& client, CO_OBJ& obj, uint32_t& size) {
-  if (has(client, is_upload)) {
-    size = obj::size(obj, *client.Node, 0);
-    return check_upload(client, obj, size);
+Abort transfer(CO_CSDO& client, CO_SDO& channel, CO_OBJ& obj) {
+  Abort abort = check_size(client, channel, obj);
+  if (abort == Abort::none && obj::is_stream(obj)) {
+    abort = sdo_server::begin_stream(channel, obj, channel.Size);
   }
-  size = client.Size;
-  return access::check_length(*client.Node, obj, size);
-}
-
-Abort transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
-  CO_NODE& node = *client.Node;
-  uint32_t size = 0;
-  Abort abort = check_size(client, obj, size);
   if (abort != Abort::none) {
     return abort;
   }
-  CO_ERR err = obj::begin(obj, node, direction, size);
-  if (err != CO_ERR_NONE) {
-    return access::abort_for(node, err);
+  channel.Obj = &obj;
+  abort =
+      sdo_server::is_value(channel, obj) ? transfer_value(client, channel, obj) : transfer_pieces(client, channel, obj);
+  if (abort == Abort::none && channel.Size > client.Size) {
+    abort = Abort::memory;
   }
-  abort = direction == CO_OBJ_UPLOAD ? read_all(client, obj, size) : write_all(client, obj);
-  err = obj::end(obj, node, direction, abort);
-  const bool refused = abort == Abort::none && err != CO_ERR_NONE && direction == CO_OBJ_DOWNLOAD;
-  return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : abort;
+  if (abort == Abort::none) {
+    client.Total = channel.Size;
+    client.Num = channel.Size;
+  }
+  const Abort refused = sdo_server::close(channel, abort);
+  return abort != Abort::none ? abort : refused;
 }
 
-// Reads or writes the object. Returns an abort code.
+// Reads or writes the object by the functions of an SDO server. Returns an abort code.
 Abort access_own(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
-  const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
+  CO_SDO channel = {};
+  channel.Node = &node;
+  channel.Flags = has(client, is_upload) ? 0 : sdo_server::download;
   const access::Request request(node, nullptr);
   CO_OBJ* const obj = dict::find(node, client.Key);
-  const Abort abort = stream::check(node, client.Key, obj, direction);
+  const Abort abort = stream::check(node, client.Key, obj, access::direction_of(channel));
   if (abort != Abort::none) {
     return abort;
   }
   node.Request->Obj = obj;
-  const bool taken = obj::is_stream(*obj) && access::is_open(node, *obj, nullptr);
-  return taken ? Abort::device_state : transfer(client, *obj, direction);
+  return transfer(client, channel, *obj);
 }
 
 void run_own_access(void* client_pointer) {
