@@ -23,9 +23,6 @@ class Lock {
   CO_NODE& node_;
 };
 
-// The last link of the list is known: most timers are inserted at the end.
-constexpr bool has_end = USE_FAST_PATHS != 0;
-
 // Returns the timer that contains the link.
 CO_TMR_MEM& owner_of(CO_TMR_MEM** link) { return *reinterpret_cast<CO_TMR_MEM*>(link); }
 static_assert(offsetof(CO_TMR_MEM, Next) == 0);
@@ -87,7 +84,7 @@ void process_clock(CO_TMR& t) {
     }
     ticks = (*link)->At - from;
   }
-  return link == t.Armed || !has_end || link == t.End;
+  return link == t.Armed || link == t.End;
 }
 
 // Links a timer that elapses some ticks after a clock value behind all timers that elapse before it or at the same
@@ -95,16 +92,20 @@ void process_clock(CO_TMR& t) {
 // clock, which no armed timer precedes.
 bool link_by_expiry(CO_TMR& t, CO_TMR_MEM& timer, uint32_t from, uint32_t ticks) {
   CO_TMR_MEM** link = t.Armed;
-  if (has_end && *link != nullptr && owner_of(t.End).At - from <= ticks) {
+  CO_TMR_MEM* next = *link;
+  if (next != nullptr && owner_of(t.End).At - from <= ticks) {
     link = t.End;
+    next = nullptr;
+  } else if (next != nullptr) {
+    while (next->At - from <= ticks) {
+      link = &next->Next;
+      next = *link;
+    }
   }
-  while (*link != nullptr && (*link)->At - from <= ticks) {
-    link = &(*link)->Next;
-  }
-  if (has_end && *link == nullptr) {
+  if (next == nullptr) {
     t.End = &timer.Next;
   }
-  timer.Next = *link;
+  timer.Next = next;
   timer.At = from + ticks;
   *link = &timer;
   CO_ASSERT(is_consistent(t, from));
@@ -129,7 +130,7 @@ void remove(CO_TMR& t, CO_TMR_MEM& timer) {
     link = &(*link)->Next;
   }
   *link = timer.Next;
-  if (has_end && t.End == &timer.Next) {
+  if (t.End == &timer.Next) {
     t.End = link;
   }
   if (t.Armed == link) {
@@ -418,7 +419,7 @@ Missing missing_call(CO_NODE& node) {
   if (!is_due && now - t.Clock < first->At - t.Clock) {  // armed, and not late
     return Missing::nothing;
   }
-  // The clock of a classic driver does not advance beyond an alarm that was not served.
+  // The clock of a classic driver does not advance beyond an alarm that was not processed.
   const uint32_t late = now - first->At;
   const bool is_stuck = node.If.HasElapsed != nullptr && late == 0 && !is_due;
   if (late <= t.Freq / 8 && !is_stuck) {

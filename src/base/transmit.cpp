@@ -60,7 +60,8 @@ CO_IF_FRM* find(const CO_TX_QUEUE& queue, unsigned from, uint32_t identifier) {
   return nullptr;
 }
 
-bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t limit) {
+// Not inlined: most frames are sent at once.
+[[gnu::noinline]] bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t limit) {
   if (node.TxQueue.Num >= limit) {
     count(node.Count.Dropped);
     return false;

@@ -109,7 +109,7 @@ void CONodeProcess(CO_NODE* node) {
     node::drop_received(*node);
     return;
   }
-  if (USE_FAST_PATHS == 0 || node::waits_to_send(*node)) {
+  if (node::waits_to_send(*node)) {
     node::resume_sending_between_frames(*node);
     if constexpr (USE_REAL_TIME != 0) {
       node::run_deferred_of_mainline(*node);

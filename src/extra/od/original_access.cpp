@@ -66,7 +66,7 @@ uint32_t size_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type) {
   return type.Size == nullptr ? 0 : type.Size(stream.Entry, stream.Owner, 0);
 }
 
-// Returns whether an SDO transfer has the object open, other than the one that is being served, which may be the
+// Returns whether an SDO transfer has the object open, other than the one that is being processed, which may be the
 // caller. A stream of the application allows one access at a time.
 bool is_in_sdo_transfer(const OD_stream_t& stream) {
   const CO_NODE& node = *stream.Owner;

@@ -391,7 +391,7 @@ CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
 
 // Original types ------------------------------------------------------------------------------------------------------
 
-// Returns the SDO transfer that is being served if the running access belongs to it, else null.
+// Returns the SDO transfer that is being processed if the running access belongs to it, else null.
 OD_TRANSFER* transfer_of_original(const CO_OBJ& obj, const CO_NODE& node) {
   OD_t* const od = port::od_of(node);
   return od != nullptr && is_called_by_transfer(*od, node, obj) ? find_transfer(*od, node, obj) : nullptr;

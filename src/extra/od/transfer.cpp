@@ -40,8 +40,8 @@ bool is_free(const CO_NODE& node, const OD_TRANSFER& transfer) {
          (!has(transfer, in_application) && !access::is_open(node, *transfer.Entry, nullptr));
 }
 
-// Returns the SDO transfer of an object at index that is being served, or null. The node, which may not be initialised
-// yet, is accessed only if there is a transfer.
+// Returns the SDO transfer of an object at index that is being processed, or null. The node, which may not be
+// initialised yet, is accessed only if there is a transfer.
 OD_TRANSFER* find_running(OD_t& od, uint16_t index) {
   for (unsigned n = 0; n < application; ++n) {
     OD_TRANSFER& transfer = od.Transfer[n];

@@ -30,15 +30,15 @@ inline void clear(OD_TRANSFER& transfer, Flag flag) { transfer.State = static_ca
 // Sets an access to the beginning of a stream of this length in bytes.
 void restart(OD_TRANSFER& transfer, OD_size_t length);
 
-// Returns whether the running access to the object belongs to the SDO transfer that is being served. Returns false for
-// an access by a function of the application, also one that this transfer has called.
+// Returns whether the running access to the object belongs to the SDO transfer that is being processed. Returns false
+// for an access by a function of the application, also one that this transfer has called.
 [[nodiscard]] bool is_called_by_transfer(const OD_t& od, const CO_NODE& node, const CO_OBJ& obj);
 
 // Returns the open SDO transfer of the object; null: none is open, or its channel no longer has the object open.
 [[nodiscard]] OD_TRANSFER* find_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj);
 
-// Returns the caller's access to the object: the SDO transfer that is being served, or the access of the application.
-// Null: it has not begun one.
+// Returns the caller's access to the object: the SDO transfer that is being processed, or the access of the
+// application. Null: it has not begun one.
 [[nodiscard]] OD_TRANSFER* find_access(OD_t& od, const CO_NODE& node, const CO_OBJ& obj);
 
 // Returns the SDO transfer of the object like find_transfer(), even if its channel no longer has the object open.
@@ -59,7 +59,7 @@ void end_transfer(OD_TRANSFER& transfer);
 // initialised.
 void end_accesses(OD_t& od, uint16_t index);
 
-// Returns whether the object of the SDO transfer that is being served has got another extension since the transfer
+// Returns whether the object of the SDO transfer that is being processed has got another extension since the transfer
 // began.
 [[nodiscard]] bool is_extension_changed(const CO_NODE& node, const CO_OBJ& obj);
 

@@ -20,7 +20,7 @@ struct OD_WRITING_T {
 
 namespace co::od {
 
-// Sets the abort code of the transfer that is being served, for the result of an extension's function. Returns the
+// Sets the abort code of the transfer that is being processed, for the result of an extension's function. Returns the
 // error code that the type function has to return; CO_ERR_NONE for ODR_OK and ODR_PARTIAL, which clear the abort code.
 [[nodiscard]] CO_ERR set_abort_code(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer);
 

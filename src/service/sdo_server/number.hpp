@@ -39,7 +39,7 @@ inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
 
 // Answers a request that find_number() has found an object for. Returns false if the state machine of the server
 // has to process it: the object is no plain number, or the access is refused or left to callbacks.
-[[gnu::always_inline]] inline bool serve_number(const CO_SDO& channel, const CO_IF_FRM& request, const CO_OBJ& obj) {
+[[gnu::always_inline]] inline bool answer_number(const CO_SDO& channel, const CO_IF_FRM& request, const CO_OBJ& obj) {
   CO_NODE& node = *channel.Node;
   const bool is_upload = request.Data[0] == wire::initiate_upload_request;
   const unsigned bytes = integer::plain_bytes(obj);

@@ -98,17 +98,17 @@ inline void run_handler(CO_SDO& channel, Handler handler, const CO_IF_FRM& reque
 }
 
 // Not inlined: relative to a pointer to the channel, all members are reached by short loads.
-[[gnu::noinline]] bool serve(CO_SDO& channel, const CO_IF_FRM& frame) {
+[[gnu::noinline]] bool process_frame(CO_SDO& channel, const CO_IF_FRM& frame) {
   if (frame.DLC != wire::sdo_dlc) {
     return false;
   }
   CO_OBJ* found = nullptr;
   if (state_of(channel) == State::idle) {
     found = find_number(channel, frame);
-    if (found != nullptr && serve_number(channel, frame, *found)) {
+    if (found != nullptr && answer_number(channel, frame, *found)) {
       return true;
     }
-  } else if (USE_FAST_PATHS != 0 && serve_segment(channel, frame)) {
+  } else if (USE_FAST_PATHS != 0 && answer_segment(channel, frame)) {
     return true;
   }
   const bool in_block = is_segment(channel, frame);
@@ -174,7 +174,7 @@ void configure(CO_NODE& node) {
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   CO_ASSERT(number < CO_SSDO_N && node.Sdo[number].Node == &node && is_consistent(node.Sdo[number]));
-  const bool is_valid = serve(node.Sdo[number], frame);
+  const bool is_valid = process_frame(node.Sdo[number], frame);
   CO_ASSERT(is_consistent(node.Sdo[number]));
   return is_valid;
 }

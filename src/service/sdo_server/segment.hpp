@@ -86,7 +86,7 @@ inline bool store_straight(const CO_SDO&, const CO_IF_FRM&) { return false; }
 
 // Processes a segment of an open transfer. Returns false, and changes nothing, if the state machine of the server
 // has to process the frame.
-[[gnu::always_inline]] inline bool serve_segment(CO_SDO& channel, const CO_IF_FRM& frame) {
+[[gnu::always_inline]] inline bool answer_segment(CO_SDO& channel, const CO_IF_FRM& frame) {
   const State state = state_of(channel);
   if (state == State::block_download) {
     return store_straight(channel, frame);

@@ -177,7 +177,7 @@ CO_ERR access_all(CO_NODE& node, const CO_SRDO& srdo, uint8_t* const (&data)[2])
   const dict::Lock lock(node);
   unsigned position[2] = {0, 0};
   for (unsigned slot = 0; slot < srdo.Num; ++slot) {
-    if ((srdo.Flags & served) == 0) {
+    if ((srdo.Flags & accessing) == 0) {
       return CO_ERR_OBJ_STATE;
     }
     const unsigned frame = slot % 2;

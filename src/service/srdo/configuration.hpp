@@ -40,9 +40,9 @@ void invalidate(CO_NODE& node);
 [[nodiscard]] CO_ERR compute_signature(CO_NODE& node, unsigned number, uint16_t& signature);
 
 // Bit of CO_SRDO.Flags: objects are being read or written; cleared when the SRDO ends.
-inline constexpr uint8_t served = 0x04;
+inline constexpr uint8_t accessing = 0x04;
 
-// Reads or writes the mapped objects of an SRDO that is being served, with OdLock held. Returns the first error.
+// Reads or writes the mapped objects of an SRDO that is being processed, with OdLock held. Returns the first error.
 [[nodiscard]] CO_ERR read_objects(CO_NODE& node, const CO_SRDO& srdo, uint8_t* plain, uint8_t* inverse);
 [[nodiscard]] CO_ERR write_objects(CO_NODE& node, const CO_SRDO& srdo, uint8_t* plain, uint8_t* inverse);
 

@@ -18,7 +18,7 @@ namespace {
 
 using event::Fault;
 
-// Bits of CO_SRDO.Flags, in addition to served.
+// Bits of CO_SRDO.Flags, in addition to accessing.
 enum Flag : uint8_t {
   halved = 0x01,     // consumer: the inverse frame is expected; producer: it is sent after CO_SRDO_GAP
   requested = 0x02,  // producer: another pair follows the present one
@@ -57,7 +57,7 @@ void withdraw(CO_SRDO& srdo) {
 
 void stop(CO_SRDO& srdo) {
   tmr::stop(*srdo.Node, srdo.Tmr);
-  clear(srdo, halved | requested | served);
+  clear(srdo, halved | requested | accessing);
   withdraw(srdo);
 }
 
@@ -133,12 +133,12 @@ void produce(CO_SRDO& srdo) {
   CO_NODE& node = *srdo.Node;
   CO_IF_FRM plain = wire::empty_frame(srdo.Identifier[0], srdo.Length);
   uint8_t inverse[sizeof srdo.Data] = {};
-  set(srdo, served);
+  set(srdo, accessing);
   const CO_ERR err = read_objects(node, srdo, plain.Data, inverse);
-  if (!has(srdo, served)) {
+  if (!has(srdo, accessing)) {
     return;
   }
-  clear(srdo, served | requested);
+  clear(srdo, accessing | requested);
   if (err != CO_ERR_NONE) {
     fail(srdo, CO_SRDO_ERR_INTERNAL);
   } else if (!wire::is_inverse(plain.Data, inverse, srdo.Length)) {
@@ -167,7 +167,7 @@ CO_ERR request(CO_NODE& node, CO_SRDO& srdo) {
   if (!is_operational(node)) {
     return CO_ERR_NMT_MODE;
   }
-  if (!is_running(srdo) || srdo.Direction != CO_SRDO_TX || has(srdo, served)) {
+  if (!is_running(srdo) || srdo.Direction != CO_SRDO_TX || has(srdo, accessing)) {
     return CO_ERR_OBJ_STATE;
   }
   if (has(srdo, halved)) {
@@ -233,12 +233,12 @@ void consume(CO_SRDO& srdo, const CO_IF_FRM& frame) {
   CO_IF_FRM inverse = frame;
   clear(srdo, halved);
   expect(srdo, srdo.Cycle);
-  set(srdo, served);
+  set(srdo, accessing);
   const CO_ERR err = write_objects(node, srdo, srdo.Data, inverse.Data);
-  if (!has(srdo, served)) {
+  if (!has(srdo, accessing)) {
     return;
   }
-  clear(srdo, served);
+  clear(srdo, accessing);
   err == CO_ERR_NONE ? change_state(srdo, CO_SRDO_ESTABLISHED) : fail(srdo, CO_SRDO_ERR_INTERNAL);
 }
 
