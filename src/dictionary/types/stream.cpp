@@ -28,6 +28,10 @@ Abort check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFE
   return abort == Abort::none && is_missing(*obj) ? Abort::not_stored : abort;
 }
 
+#if !USE_OD  // otherwise a function of src/extra/od
+const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) { return obj.Type; }
+#endif
+
 CO_ERR init(CO_OBJ* obj, CO_NODE_T* node) {
   if (USE_OD == 0 || node->PassStream == nullptr) {  // extensible streams have a function that calls it
     node->PassStream = obj::pass_stream;

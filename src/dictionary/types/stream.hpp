@@ -31,11 +31,7 @@ CO_ERR init(CO_OBJ* obj, CO_NODE_T* node);
 CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
 
 // Returns the type of an entry or, if the entry can be extended (src/extra/od), its original type; null: it has none.
-#if USE_OD
 [[nodiscard]] const CO_OBJ_TYPE* original_type(const CO_OBJ& obj);
-#else
-[[nodiscard]] inline const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) { return obj.Type; }
-#endif
 
 // Checks an object like access::check(); also refuses a stream of this library whose Data is null.
 [[nodiscard]] Abort check(const CO_NODE_T& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer);

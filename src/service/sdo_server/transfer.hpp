@@ -52,7 +52,7 @@ inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }
 // Handlers of the state machine. They process a request, fill the response, and return an abort code.
 // [301:7.2.4.3] found: object of the request, if it was found before, otherwise null
 using Handler = Abort (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
-[[nodiscard]] Abort initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
+[[nodiscard]] Abort initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* obj);
 [[nodiscard]] Abort download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
 [[nodiscard]] Abort upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
 [[nodiscard]] Abort end_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
