@@ -110,23 +110,10 @@ typedef struct CO_NODE_T {
   CO_ROUTES Routes;        ///< routing table of received frames
   CO_DICT Dict;            ///< object dictionary, handle for co_dict.h
   CO_TMR Tmr;              ///< timers, handle for co_tmr.h
-  CO_SDO Sdo[CO_SSDO_N];   ///< SDO servers, 1200h + index
   CO_TMR_MEM SdoTmr;       ///< one time-out timer for all SDO servers
   CO_TMR_MEM HbProdTmr;    ///< heartbeat producer: period
-#if USE_CSDO
-  CO_CSDO CSdo[CO_CSDO_N];  ///< SDO clients, 1280h + index; see COCSdoFind()
-#endif
 #if USE_EMCY
   CO_EMCY Emcy;  ///< emergencies, handle for co_emcy.h
-#endif
-#if CO_RPDO_N > 0
-  CO_RPDO RPdo[CO_RPDO_N];  ///< RPDOs, 1400h + index
-#endif
-#if CO_TPDO_N > 0
-  CO_TPDO TPdo[CO_TPDO_N];  ///< TPDOs, 1800h + index; handle for COTPdoTrigPdo() and COTPdoTrigObj()
-#endif
-#if CO_RPDO_N > 0 || CO_TPDO_N > 0
-  CO_PDO_SETS PdoSets;  ///< sets of PDOs
 #endif
 #if USE_SYNC
   CO_SYNC Sync;  ///< SYNC consumer and producer
@@ -152,6 +139,19 @@ typedef struct CO_NODE_T {
 #if CO_HBCONS_N > 0
   CO_TMR_MEM HbConsTmr;             ///< one timer for all heartbeat consumers
   CO_HB_WATCH HbCons[CO_HBCONS_N];  ///< indexed by sub-index of 1016h
+#endif
+#if CO_RPDO_N > 0 || CO_TPDO_N > 0
+  CO_PDO_SETS PdoSets;  ///< sets of PDOs
+#endif
+  CO_SDO Sdo[CO_SSDO_N];  ///< SDO servers, 1200h + index
+#if USE_CSDO
+  CO_CSDO CSdo[CO_CSDO_N];  ///< SDO clients, 1280h + index; see COCSdoFind()
+#endif
+#if CO_RPDO_N > 0
+  CO_RPDO RPdo[CO_RPDO_N];  ///< RPDOs, 1400h + index
+#endif
+#if CO_TPDO_N > 0
+  CO_TPDO TPdo[CO_TPDO_N];  ///< TPDOs, 1800h + index; handle for COTPdoTrigPdo() and COTPdoTrigObj()
 #endif
 #if CO_MPDO_N > 0
   CO_MPDO Mpdo;  ///< object scanner list and object dispatching list
