@@ -147,6 +147,12 @@ typedef struct CO_EMCY_HIST_T {                         // ring of entries of 10
   void (*Add)(struct CO_NODE_T* node, uint32_t entry);  // adds an entry, set by the type of 1003h; null: no history
 } CO_EMCY_HIST;
 
+#if CO_RPDO_N > 255
+typedef uint16_t CO_EMCY_COUNT;  // number of nodes, PDOs or SRDOs that have an error
+#else
+typedef uint8_t CO_EMCY_COUNT;
+#endif
+
 typedef struct CO_EMCY_MSG_T {  // bytes of a message, the first one lowest
   uint32_t Low;
   uint32_t High;
@@ -157,15 +163,19 @@ typedef struct CO_EMCY_MSG_T {  // bytes of a message, the first one lowest
 typedef struct CO_EMCY_T {
   struct CO_NODE_T* Node;                    ///< owner
   const CO_EMCY_TBL* Root;                   ///< CO_NODE_SPEC.EmcyCode
-  uint8_t Waiting;                           ///< messages in the queue, oldest first
-  CO_EMCY_HIST Hist;                         ///< 1003h
   uint8_t Register;                          ///< error register
   uint8_t RegisterChanged;                   ///< the error register was not written to 1001h yet
-  void (*ShowBits)(struct CO_NODE_T* node);  ///< triggers the TPDOs of error status bits; null: there are none
+  uint16_t Faults;                           ///< number of unresolved occurrences of all errors of the stack
   uint8_t Err[CO_EMCY_STORAGE];              ///< errors of the application: bit 0 of byte 0 is identifier 0
-  uint16_t Fault[CO_EMCY_FAULT_N];           ///< number of unresolved occurrences of each error of the stack
+  CO_EMCY_COUNT Fault[CO_EMCY_FAULT_N];      ///< number of unresolved occurrences of each error of the stack
+  uint8_t Waiting;                           ///< messages in the queue, oldest first
+  CO_EMCY_HIST Hist;                         ///< 1003h
+  CO_OBJ* RegisterEntry;                     ///< 1001h; null: there is none
+  CO_OBJ* IdEntry;                           ///< 1014h; null: there is none
+  void (*ShowBits)(struct CO_NODE_T* node);  ///< triggers the TPDOs of error status bits; null: there are none
   CO_TMR_MEM Hold[CO_EMCY_HOLD_N];           ///< times until 8110h and 8150h are resolved
 #if CO_EMCY_QUEUE_N > 0
+  CO_OBJ* InhibitEntry;                ///< 1015h; null: there is none
   CO_TMR_MEM Tmr;                      ///< inhibit time
   CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];  ///< messages that wait for the inhibit time or the transmit queue
 #endif

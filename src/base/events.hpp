@@ -90,7 +90,8 @@ enum class Fault : uint8_t {
 void raise(CO_NODE& node, Fault fault, uint32_t detail);
 void resolve(CO_NODE& node, Fault fault, uint32_t detail);
 // Like resolve(), without an EMCY message: the service has stopped to monitor the fault.
-void forget(CO_NODE& node, Fault fault);
+inline constexpr uint32_t silently = UINT32_MAX;
+inline void forget(CO_NODE& node, Fault fault) { resolve(node, fault, silently); }
 
 // Reports that the node has lost the network: by bus-off, or because a monitored node or the NMT master is missing.
 // Changes the NMT state by 1029h. [301:7.5.2.32]

@@ -65,16 +65,17 @@ class Part {
     return part;
   }
 
-  // configure: parameters have changed. halt: the dictionary was replaced, and no function of the application has run
-  // since. remap: then, the objects in it are found again.
+  // configure: parameters have changed. table: the dictionary was replaced, also that of a stopped node. halt: the
+  // same, if the node is not stopped; no function of the application has run since. remap: then, the objects in it are
+  // found again.
   CO_COLUMN(configure, Function, nullptr)
+  CO_COLUMN(table, Function, nullptr)
   CO_COLUMN(halt, Function, nullptr)
   CO_COLUMN(remap, Function, nullptr)
 
   // Events of other parts, of the controller and of the application (base/events.hpp).
   CO_COLUMN(raise, FaultFunction, nullptr)
   CO_COLUMN(resolve, FaultFunction, nullptr)
-  CO_COLUMN(forget, FaultFunction, nullptr)
   using Can = void (*)(CO_NODE& node, CO_CAN_EVENT what);
   CO_COLUMN(can, Can, nullptr)
   CO_COLUMN(bus_off, Function, nullptr)

@@ -107,10 +107,13 @@ Initialised init_objects(CO_DICT& dict, CO_NODE& node) {
 }
 
 uint32_t read_number(CO_NODE_T& node, uint32_t key, uint32_t width, uint32_t otherwise) {
+  return read_number(node, find(node, key), width, otherwise);
+}
+
+uint32_t read_number(CO_NODE_T& node, CO_OBJ* obj, uint32_t width, uint32_t otherwise) {
   uint32_t number = 0;
   CO_ASSERT(width != 0 && width <= sizeof number);
   const uint32_t above = wire::host_is_little_endian ? 0 : sizeof number - width;
-  CO_OBJ* const obj = find(node, key);
   const bool known =
       obj != nullptr && obj::read(*obj, node, reinterpret_cast<uint8_t*>(&number) + above, width) == CO_ERR_NONE;
   return known ? number : otherwise;

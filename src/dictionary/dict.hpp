@@ -83,6 +83,7 @@ inline constexpr CO_OBJ_INIT_FUNC checked_by = USE_DICT_CHECK != 0 ? init<rule> 
 
 // Returns the number in an entry; otherwise if there is no entry, or one with another width. width: bytes, up to 4
 [[nodiscard]] uint32_t read_number(CO_NODE_T& node, uint32_t key, uint32_t width, uint32_t otherwise);
+[[nodiscard]] uint32_t read_number(CO_NODE_T& node, CO_OBJ* obj, uint32_t width, uint32_t otherwise);
 // Reads a value of exactly 4 bytes through the type of its entry. Returns CO_ERR_OBJ_NOT_FOUND, CO_ERR_OBJ_SIZE or the
 // error of the type.
 [[nodiscard]] CO_ERR read_u32(CO_NODE_T& node, uint32_t key, uint32_t& value);

@@ -33,6 +33,7 @@ extern "C" int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint1
   }
   const event::Call call(*node);
   const CO_ERR err = dict::set_table(*cod, *node, root, max);
+  parts::run<&Part::of_table>(*node);
   access::close_moved(*node);  // SDO transfers whose entry is no longer at the same address
   if ((node->State & event::running) != 0) {
     remap(*node);

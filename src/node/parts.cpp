@@ -157,8 +157,6 @@ void event::raise(CO_NODE& node, Fault fault, uint32_t detail) { parts::run<&Par
 
 void event::resolve(CO_NODE& node, Fault fault, uint32_t detail) { parts::run<&Part::of_resolve>(node, fault, detail); }
 
-void event::forget(CO_NODE& node, Fault fault) { parts::run<&Part::of_forget>(node, fault, 0U); }
-
 void event::report_can(CO_NODE& node, CO_CAN_EVENT what) {
   if (what == CO_CAN_BUS_OFF) {
     parts::run<&Part::of_bus_off>(node);

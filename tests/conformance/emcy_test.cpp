@@ -292,6 +292,27 @@ TEST_CASE("EMCY: 1014h of type UNSIGNED32 sets CAN-ID, frame format and bit 31 [
   }
 }
 
+TEST_CASE("EMCY: after CODictInit() 1001h and 1014h of the new table are used, also on a stopped node") {
+  EmcyNode node;
+  std::uint8_t moved = 0;
+  std::vector<CO_OBJ> table = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0},
+                               {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, (CO_DATA)(&moved)},
+                               {CO_KEY(0x1014, 0, CO_OBJ_D___R_), CO_TEMCY_ID, 0x85}};
+  node.call([&] { CHECK(CODictInit(&node->Dict, &node.node, table.data(), 3) == 3); });
+  node.set(current);
+  node.tx("085#0020030000000000");
+  CHECK(moved == 0x03);
+  node.call([&] { CONodeStop(&node.node); });
+  std::uint8_t last = 0xEE;
+  table[1].Data = (CO_DATA)(&last);
+  std::vector<CO_OBJ> other = table;
+  table.assign(3, {0xFFFFFFFF, nullptr, 0});
+  node.call([&] { CHECK(CODictInit(&node->Dict, &node.node, other.data(), 3) == 3); });
+  node.clr(current);
+  node.silent();
+  CHECK(last == 0);
+}
+
 TEST_CASE("EMCY: all CO_EMCY_N errors of the application can be set in any order [E3]") {
   std::vector<CO_EMCY_TBL> table;
   for (unsigned n = 0; n < CO_EMCY_N; ++n) {

@@ -22,9 +22,6 @@ using event::Fault;
 constexpr uint32_t key_register = CO_DEV(0x1001, 0);
 constexpr uint32_t key_cob_id = CO_DEV(0x1014, 0);
 
-constexpr uint8_t generic = 1U << CO_EMCY_REG_GENERAL;
-constexpr uint8_t communication = generic | (1U << CO_EMCY_REG_COM);
-
 constexpr uint16_t codes[] = {
 #define CO_CODE(fault, code, bit, led) code,
     CO_FAULTS(CO_CODE)
@@ -36,9 +33,7 @@ static_assert(code_of(Fault::overrun) == 0x8110 && code_of(Fault::life_guard) ==
 static_assert(code_of(Fault::recovered) == 0x8140 && code_of(Fault::pdo_timeout) == 0x8250);
 
 // Returns how often a fault was raised without being resolved.
-uint16_t& number_of(CO_NODE& node, Fault fault) { return node.Emcy.Fault[static_cast<uint8_t>(fault)]; }
-
-constexpr CO_EMCY_USR nothing_added = {};
+CO_EMCY_COUNT& number_of(CO_NODE& node, Fault fault) { return node.Emcy.Fault[static_cast<uint8_t>(fault)]; }
 
 // Errors of the application -------------------------------------------------------------------------------------------
 
@@ -47,82 +42,73 @@ constexpr uint8_t mask(unsigned err) { return static_cast<uint8_t>(1U << (err % 
 bool is_set(const CO_EMCY& emcy, unsigned err) { return (emcy.Err[err / 8] & mask(err)) != 0; }
 
 // Reports that a bit of the error status has changed.
-[[gnu::noinline]] void show_bits(CO_NODE& node) {
-  if (node.Emcy.ShowBits != nullptr) {
-    node.Emcy.ShowBits(&node);
+[[gnu::noinline]] void show_bits(CO_EMCY& emcy) {
+  if (emcy.ShowBits != nullptr) {
+    emcy.ShowBits(emcy.Node);
   }
 }
 
-// Sets or clears an error. Returns false if it has that state already, or if there is no such error (reported as the
-// node's error).
-bool change(CO_EMCY& emcy, unsigned err, bool come) {
-  if (emcy.Root == nullptr) {
-    error::report(*emcy.Node, CO_ERR_EMCY_BAD_ROOT);
-    return false;
+void clear_errors(CO_EMCY& emcy) {
+  for (uint8_t& bits : emcy.Err) {
+    bits = 0;
   }
-  if (err >= table_length(emcy)) {
-    error::report(*emcy.Node, CO_ERR_BAD_ARG);
-    return false;
-  }
-  uint8_t& bits = emcy.Err[err / 8];
-  const unsigned before = bits;
-  const unsigned after = come ? before | mask(err) : before & ~unsigned{mask(err)};
-  bits = static_cast<uint8_t>(after);
-  return after != before;
 }
 
 // Error register ------------------------------------------------------------------------------------------------------
 
-// Returns the bits of the error register for CO_EMCY_TBL.Reg: that bit and "generic error". Bit 6 is reserved.
+// Returns the error register: the bit of each error (CO_EMCY_TBL.Reg) and "generic error". Bit 6 is reserved.
 // [301:7.5.2.2]
-constexpr uint32_t bits_of(uint8_t reg) {
-  constexpr uint32_t reserved = 1U << 6;
-  return generic | (reg < CO_EMCY_REG_NUM ? (1U << reg) & ~reserved : 0U);
-}
-
 uint8_t register_of(const CO_EMCY& emcy) {
-  uint32_t bits = 0;
+  constexpr uint32_t generic = 1U << CO_EMCY_REG_GENERAL;
+  constexpr uint32_t reserved = 1U << 6;
+  uint32_t bits = emcy.Faults != 0 ? generic | 1U << CO_EMCY_REG_COM : 0U;
   for (uint32_t byte = 0; byte < sizeof emcy.Err; ++byte) {
     uint32_t err = byte * 8;
     for (uint32_t set = emcy.Err[byte]; set != 0; set >>= 1, ++err) {
-      bits |= (set & 1U) != 0 ? bits_of(emcy.Root[err].Reg) : 0U;
+      const uint8_t reg = emcy.Root[err].Reg;
+      if ((set & 1U) != 0) {
+        bits |= generic | (reg < CO_EMCY_REG_NUM ? 1U << reg : 0U);
+      }
     }
   }
-  uint32_t faults = 0;
-  for (const uint16_t number : emcy.Fault) {
-    faults |= number;
-  }
-  return static_cast<uint8_t>(faults != 0 ? bits | communication : bits);
+  return static_cast<uint8_t>(bits & ~reserved);
 }
 
 // Updates the error register. If it has changed, send_queued() writes it to 1001h.
-uint8_t update_register(CO_NODE& node) {
-  const uint8_t bits = register_of(node.Emcy);
-  if (bits != node.Emcy.Register) {
-    node.Emcy.Register = bits;
-    node.Emcy.RegisterChanged = 1;
-    event::defer(node, event::send_emcy);
+uint8_t update_register(CO_EMCY& emcy) {
+  const uint8_t bits = register_of(emcy);
+  if (bits != emcy.Register) {
+    emcy.Register = bits;
+    emcy.RegisterChanged = 1;
+    event::defer(*emcy.Node, event::send_emcy);
   }
   return bits;
 }
 
 // Writes the error register to 1001h. An entry with flag D is not written, because it may be in read-only memory.
 void write_register(CO_NODE& node) {
-  node.Emcy.RegisterChanged = 0;
-  CO_OBJ* const obj = dict::find(node, key_register);
+  CO_EMCY& emcy = node.Emcy;
+  CO_OBJ* const obj = emcy.RegisterEntry;
+  emcy.RegisterChanged = 0;
   if (obj != nullptr && CO_IS_DIRECT(obj->Key) == 0) {
-    uint8_t bits = node.Emcy.Register;
+    uint8_t bits = emcy.Register;
     error::report(node, obj::write(*obj, node, &bits, sizeof bits), key_register);
   }
 }
 
 // Messages ------------------------------------------------------------------------------------------------------------
 
-// Updates the error register and sends a message with it.
-void post(CO_NODE& node, CO_EMCY_MSG msg) {
-  msg = wire::with_register(msg, update_register(node));
-  if (event::is_allowed(node, CO_EMCY_ALLOWED)) {
-    send_message(node, msg);
+void add_to_history(CO_EMCY& emcy, uint32_t entry) {
+  if (emcy.Hist.Add != nullptr) {
+    emcy.Hist.Add(emcy.Node, entry);
+  }
+}
+
+// Updates the error register and sends a message with it. frame: a message without its register and identifier
+void post(CO_EMCY& emcy, CO_IF_FRM& frame) {
+  frame.Data[wire::emcy_register_byte] = update_register(emcy);
+  if (event::is_allowed(*emcy.Node, CO_EMCY_ALLOWED)) {
+    send_message(*emcy.Node, frame);
   }
 }
 
@@ -134,25 +120,42 @@ void finish_call(CO_NODE& node) {
   event::run_deferred(node);
 }
 
-void report_gone(CO_NODE& node, uint32_t detail) { post(node, wire::emcy_message(CO_EMCY_CODE_NO_ERR, detail)); }
-
-void add_to_history(CO_NODE& node, uint32_t entry) {
-  if (node.Emcy.Hist.Add != nullptr) {
-    node.Emcy.Hist.Add(&node, entry);
-  }
-}
-
 // Adds a fault to the history and sends its message. The first two bytes of the manufacturer-specific error field are 0
-// in both, detail is in the others. [E11]
-void report_fault(CO_NODE& node, Fault fault, uint32_t detail) {
-  const uint16_t code = code_of(fault);
-  add_to_history(node, code);
-  post(node, wire::emcy_message(code, detail));
+// in both, detail is in the others. code: 0: the fault is resolved, which the history does not contain. [E11]
+void report_fault(CO_EMCY& emcy, uint16_t code, uint32_t detail) {
+  CO_IF_FRM frame = wire::emcy(code, detail);
+  if (code != CO_EMCY_CODE_NO_ERR) {
+    add_to_history(emcy, code);
+  }
+  post(emcy, frame);
 }
 
-void report_error(CO_NODE& node, uint16_t code, const CO_EMCY_USR& usr) {
-  add_to_history(node, code | (uint32_t{usr.Hist} << 16));
-  post(node, wire::emcy_message(code, usr.Emcy));
+// Sets or clears an error of the application. If there is no such error, that is the node's error. usr: may be null
+void change(CO_EMCY* emcy, unsigned err, bool come, const CO_EMCY_USR* usr) {
+  ASSERT_PTR_FATAL(emcy);
+  ASSERT_PTR_FATAL(emcy->Node);
+  CO_NODE& node = *emcy->Node;
+  const unsigned bit = mask(err);
+  if (emcy->Root == nullptr) {
+    error::report(node, CO_ERR_EMCY_BAD_ROOT);
+  } else if (err >= table_length(*emcy)) {
+    error::report(node, CO_ERR_BAD_ARG);
+  } else if (uint8_t& bits = emcy->Err[err / 8]; ((bits & bit) != 0) != come) {
+    bits = static_cast<uint8_t>(bits ^ bit);
+    CO_IF_FRM frame = wire::emcy(0, 0);
+    if (come) {
+      uint32_t entry = emcy->Root[err].Code;
+      wire::put_low(frame, entry);
+      if (usr != nullptr) {
+        entry |= uint32_t{usr->Hist} << 16;
+        wire::put_emcy_bytes(frame, usr->Emcy);
+      }
+      add_to_history(*emcy, entry);
+    }
+    post(*emcy, frame);
+    show_bits(*emcy);
+  }
+  finish_call(node);
 }
 
 // Faults without an event that ends them -----------------------------------------------------------------------------
@@ -171,20 +174,17 @@ void resolve_held(void* node_pointer) {
   }
 }
 
-// Reports the bit of a fault that has no occurrence left.
-void show_if_gone(CO_NODE& node, Fault fault) {
-  if (number_of(node, fault) == 0) {
-    show_bits(node);
-  }
-}
-
 // The controller ------------------------------------------------------------------------------------------------------
 
 // Begins bus-off. Nothing can be sent: only sets the error register, and 8140h is sent after the recovery.
 // [301:7.2.7.1]
 void begin_bus_off(CO_NODE& node) {
-  number_of(node, Fault::recovered) = 1;
-  update_register(node);
+  CO_EMCY_COUNT& number = number_of(node, Fault::recovered);
+  if (number == 0) {
+    number = 1;
+    ++node.Emcy.Faults;
+    update_register(node.Emcy);
+  }
 }
 
 // Ends the error state of the controller. After bus-off sends 8140h, then "no error"; an error passive state before the
@@ -192,9 +192,8 @@ void begin_bus_off(CO_NODE& node) {
 void recover(CO_NODE& node) {
   Fault over = Fault::passive;
   if (number_of(node, Fault::recovered) != 0) {
-    number_of(node, Fault::recovered) = 0;
-    emcy::raise(node, Fault::recovered, 0);
-    emcy::forget(node, Fault::passive, 0);
+    report_fault(node.Emcy, code_of(Fault::recovered), 0);
+    emcy::resolve(node, Fault::passive, event::silently);
     over = Fault::recovered;
   }
   emcy::resolve(node, over, 0);
@@ -212,14 +211,25 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec) {
   node.Emcy.Root = spec.EmcyCode;
 }
 
+void find_objects(CO_NODE& node) {
+  node.Emcy.RegisterEntry = dict::find(node, key_register);
+  node.Emcy.IdEntry = dict::find(node, key_cob_id);
+#if CO_EMCY_QUEUE_N > 0
+  node.Emcy.InhibitEntry = dict::find(node, CO_DEV(0x1015, 0));
+#endif
+}
+
 void init(CO_NODE& node) {
-  for (uint16_t& number : node.Emcy.Fault) {
+  for (CO_EMCY_COUNT& number : node.Emcy.Fault) {
     number = 0;
   }
+  node.Emcy.Faults = 0;
   init_history(node);
-  node.Emcy.Register = static_cast<uint8_t>(dict::read_number(node, key_register, sizeof(uint8_t), node.Emcy.Register));
-  update_register(node);
-  if (USE_DICT_CHECK != 0 && node.Emcy.Root != nullptr && dict::find(node, key_cob_id) == nullptr) {
+  find_objects(node);
+  CO_EMCY& emcy = node.Emcy;
+  emcy.Register = static_cast<uint8_t>(dict::read_number(node, emcy.RegisterEntry, sizeof(uint8_t), emcy.Register));
+  update_register(emcy);
+  if (USE_DICT_CHECK != 0 && emcy.Root != nullptr && emcy.IdEntry == nullptr) {
     error::report(node, CO_ERR_CFG_1014_0, key_cob_id);
   }
 }
@@ -228,7 +238,7 @@ void on_mode(CO_NODE& node) {
   if (event::is_allowed(node, CO_EMCY_ALLOWED)) {
     return;
   }
-  withdraw(node, transmit::is_waiting(node) ? identifier(node) : wire::no_frame);
+  withdraw(node, identifier(node));
   if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
     stop_inhibit_time(node);
     for (CO_TMR_MEM& timer : node.Emcy.Hold) {
@@ -240,34 +250,32 @@ void on_mode(CO_NODE& node) {
 // Counts the faults up to passive once, however often they occur: they describe a state, and one event ends them.
 void raise(CO_NODE& node, Fault fault, uint32_t detail) {
   const auto kind = static_cast<uint8_t>(fault);
-  uint16_t& number = number_of(node, fault);
+  CO_EMCY& emcy = node.Emcy;
   if (kind < CO_EMCY_HOLD_N) {
-    tmr::start(node, node.Emcy.Hold[kind], node.Tmr.Freq, 0, resolve_held, &node);
+    tmr::start(node, emcy.Hold[kind], node.Tmr.Freq, 0, resolve_held, &node);
   }
+  CO_EMCY_COUNT& number = emcy.Fault[kind];
   if (kind <= static_cast<uint8_t>(Fault::passive) && number != 0) {
     return;
   }
-  ++number;
-  report_fault(node, fault, detail);
-  if (number == 1) {
-    show_bits(node);
+  ++emcy.Faults;
+  if (++number == 1) {
+    show_bits(emcy);
   }
+  report_fault(emcy, code_of(fault), detail);
 }
 
 void resolve(CO_NODE& node, Fault fault, uint32_t detail) {
-  if (number_of(node, fault) != 0) {
-    --number_of(node, fault);
-    report_gone(node, detail);
-    show_if_gone(node, fault);
+  CO_EMCY& emcy = node.Emcy;
+  CO_EMCY_COUNT& number = number_of(node, fault);
+  if (number == 0) {
+    return;
   }
-}
-
-void forget(CO_NODE& node, Fault fault, uint32_t) {
-  if (number_of(node, fault) != 0) {
-    --number_of(node, fault);
-    update_register(node);
-    show_if_gone(node, fault);
+  --emcy.Faults;
+  if (--number == 0) {
+    show_bits(emcy);
   }
+  detail == event::silently ? void(update_register(emcy)) : report_fault(emcy, CO_EMCY_CODE_NO_ERR, detail);
 }
 
 void report_can(CO_NODE& node, CO_CAN_EVENT what) {
@@ -284,9 +292,7 @@ void report_can(CO_NODE& node, CO_CAN_EVENT what) {
 }
 
 void forget_application(CO_NODE& node) {
-  for (uint8_t& bits : node.Emcy.Err) {
-    bits = 0;
-  }
+  clear_errors(node.Emcy);
   clear_history(node);
 }
 
@@ -299,7 +305,7 @@ void send_queued(CO_NODE& node) {
 }
 
 uint32_t identifier(CO_NODE& node) {
-  return cob_id::identifier(dict::read_number(node, key_cob_id, sizeof(uint32_t), wire::cob_invalid));
+  return cob_id::identifier(dict::read_number(node, node.Emcy.IdEntry, sizeof(uint32_t), wire::cob_invalid));
 }
 
 }  // namespace co::emcy
@@ -308,25 +314,9 @@ using namespace co;
 
 extern "C" {
 
-void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) {
-  ASSERT_PTR_FATAL(emcy);
-  ASSERT_PTR_FATAL(emcy->Node);
-  if (emcy::change(*emcy, err, true)) {
-    emcy::report_error(*emcy->Node, emcy->Root[err].Code, usr != nullptr ? *usr : emcy::nothing_added);
-    emcy::show_bits(*emcy->Node);
-  }
-  emcy::finish_call(*emcy->Node);
-}
+void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) { emcy::change(emcy, err, true, usr); }
 
-void COEmcyClr(CO_EMCY* emcy, uint8_t err) {
-  ASSERT_PTR_FATAL(emcy);
-  ASSERT_PTR_FATAL(emcy->Node);
-  if (emcy::change(*emcy, err, false)) {
-    emcy::report_gone(*emcy->Node, 0);
-    emcy::show_bits(*emcy->Node);
-  }
-  emcy::finish_call(*emcy->Node);
-}
+void COEmcyClr(CO_EMCY* emcy, uint8_t err) { emcy::change(emcy, err, false, nullptr); }
 
 int16_t COEmcyGet(CO_EMCY* emcy, uint8_t err) {
   ASSERT_PTR_ERR(emcy, -1);
@@ -349,19 +339,15 @@ int16_t COEmcyCnt(CO_EMCY* emcy) {
 void COEmcyReset(CO_EMCY* emcy, uint8_t silent) {
   ASSERT_PTR_FATAL(emcy);
   ASSERT_PTR_FATAL(emcy->Node);
-  bool changed = false;
-  for (uint16_t err = 0; err < CO_EMCY_N; ++err) {
-    if (!emcy::is_set(*emcy, err)) {
-      continue;
-    }
-    changed = emcy::change(*emcy, err, false) || changed;
-    if (silent == 0) {
-      emcy::report_gone(*emcy->Node, 0);
+  for (uint16_t err = 0; silent == 0 && err < CO_EMCY_N; ++err) {
+    if (emcy::is_set(*emcy, err)) {
+      COEmcyClr(emcy, static_cast<uint8_t>(err));
     }
   }
-  emcy::update_register(*emcy->Node);
-  if (changed) {
-    emcy::show_bits(*emcy->Node);
+  if (COEmcyCnt(emcy) != 0) {
+    emcy::clear_errors(*emcy);
+    emcy::update_register(*emcy);
+    emcy::show_bits(*emcy);
   }
   emcy::finish_call(*emcy->Node);
 }

@@ -96,19 +96,6 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 }
 
 }  // namespace
-
-void init_history(CO_NODE& node) {
-  CO_EMCY_HIST& history = node.Emcy.Hist;
-  if (history.Found != history.Max) {
-    history.Max = history.Found;
-    history.Num = 0;
-    history.Off = 0;
-  }
-  history.Found = 0;
-}
-
-void clear_history(CO_NODE& node) { node.Emcy.Hist.Num = 0; }
-
 }  // namespace co::emcy
 
 extern "C" const CO_OBJ_TYPE COTEmcyHist = {co::emcy::size, co::emcy::init_entry, co::emcy::read, co::emcy::write,

@@ -9,15 +9,10 @@
 #include "wire/cob_id.hpp"
 #include "wire/emcy.hpp"
 
-#if USE_EMCY
+#if USE_EMCY && CO_EMCY_QUEUE_N > 0
 
 namespace co::emcy {
-
-#if CO_EMCY_QUEUE_N > 0
-
 namespace {
-
-constexpr uint32_t key_inhibit = CO_DEV(0x1015, 0);
 
 void remove_first(CO_EMCY& emcy) {
   --emcy.Waiting;
@@ -27,7 +22,7 @@ void remove_first(CO_EMCY& emcy) {
 }
 
 // Returns the inhibit time in units of 100 µs; 0: none.
-unsigned inhibit_time(CO_NODE& node) { return dict::read_number(node, key_inhibit, sizeof(uint16_t), 0); }
+unsigned inhibit_time(CO_NODE& node) { return dict::read_number(node, node.Emcy.InhibitEntry, sizeof(uint16_t), 0); }
 
 void on_time(void* node_pointer);
 
@@ -38,7 +33,9 @@ void send_until_inhibited(CO_NODE& node, uint32_t identifier) {
   while (emcy.Waiting != 0) {
     unsigned pause = next_attempt;
     if (!transmit::is_full(node)) {
-      const CO_IF_FRM frame = wire::emcy(identifier, emcy.Queue[0]);
+      CO_IF_FRM frame = wire::empty_frame(identifier, wire::emcy_dlc);
+      wire::put_low(frame, emcy.Queue[0].Low);
+      wire::put_high(frame, emcy.Queue[0].High);
       remove_first(emcy);
       transmit::send(node, frame);
       pause = inhibit_time(node);
@@ -65,7 +62,7 @@ void on_time(void* node_pointer) {
 }  // namespace
 
 // In a full queue the message replaces the newest one, so that the last message always reports the present state.
-void send_message(CO_NODE& node, const CO_EMCY_MSG& msg) {
+void send_message(CO_NODE& node, CO_IF_FRM& frame) {
   CO_EMCY& emcy = node.Emcy;
   if (tmr::is_running(emcy.Tmr) && identifier(node) == wire::no_frame) {
     return;
@@ -77,7 +74,7 @@ void send_message(CO_NODE& node, const CO_EMCY_MSG& msg) {
     count(node.Count.Dropped);
     --emcy.Waiting;
   }
-  emcy.Queue[emcy.Waiting++] = msg;
+  emcy.Queue[emcy.Waiting++] = {wire::get_low(frame), wire::get_high(frame)};
   event::defer(node, event::send_emcy);
 }
 
@@ -104,23 +101,6 @@ void withdraw(CO_NODE& node, uint32_t identifier) {
   }
   transmit::withdraw(node, identifier);
 }
-
-#else  // without queue and inhibit time, messages are sent at once
-
-void send_message(CO_NODE& node, const CO_EMCY_MSG& msg) {
-  const uint32_t id = identifier(node);
-  if (id != wire::no_frame) {
-    transmit::send(node, wire::emcy(id, msg));
-  }
-}
-
-void send_waiting(CO_NODE&) {}
-
-void stop_inhibit_time(CO_NODE&) {}
-
-void withdraw(CO_NODE& node, uint32_t identifier) { transmit::withdraw(node, identifier); }
-
-#endif
 
 }  // namespace co::emcy
 

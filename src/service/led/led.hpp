@@ -21,6 +21,6 @@ void raise(CO_NODE& node, event::Fault fault, uint32_t detail);
 void resolve(CO_NODE& node, event::Fault fault, uint32_t detail);
 
 inline constexpr Part part =
-    Part().init(init).mode(on_mode).raise(raise).resolve(resolve).forget(resolve).can(report_can).lss_changed(update);
+    Part().init(init).mode(on_mode).raise(raise).resolve(resolve).can(report_can).lss_changed(update);
 
 }  // namespace co::led
