@@ -143,7 +143,6 @@ void drop(CO_NODE& node, unsigned from, uint32_t dropped) {
     }
   }
   queue.Num = static_cast<uint16_t>(kept);
-  CO_ASSERT(is_consistent(queue));
 }
 
 }  // namespace
@@ -219,7 +218,10 @@ bool is_queued(const CO_NODE& node, uint32_t identifier) { return find(node.TxQu
 
 bool has_room_for_application(const CO_NODE& node) { return node.TxQueue.Num < limit_for_application(node.TxQueue); }
 
-void withdraw(CO_NODE& node, uint32_t identifier) { drop(node, node.TxQueue.Fixed, identifier); }
+void withdraw(CO_NODE& node, uint32_t identifier) {
+  drop(node, node.TxQueue.Fixed, identifier);
+  CO_ASSERT(is_consistent(node.TxQueue));
+}
 
 void clear(CO_NODE& node) {
   node.TxQueue.Fixed = 0;
@@ -235,6 +237,7 @@ void keep_responses(CO_NODE& node) {
   node.TxQueue.Fixed = 0;
   drop(node, 0, all_but_responses);
   node.TxQueue.Fixed = node.TxQueue.Num;
+  CO_ASSERT(is_consistent(node.TxQueue));
 }
 
 }  // namespace co::transmit

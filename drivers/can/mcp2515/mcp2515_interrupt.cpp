@@ -28,7 +28,7 @@ void store_flags(Can& can, unsigned flags) {
     clear_bits(can, CO_MCP2515_EFLG, flags & overflows);
   }
   const bool was_bus_off = is_in_bus_off(can);
-  report::store(can.Flags, static_cast<std::uint8_t>(flags & ~overflows));
+  report::store(can.Flags, static_cast<std::uint8_t>(flags & ~unsigned{overflows}));
   if (!was_bus_off && is_in_bus_off(can)) {
     begin_bus_off(can);
   }

@@ -56,19 +56,21 @@ void clear_errors(CO_EMCY& emcy) {
 
 // Error register ------------------------------------------------------------------------------------------------------
 
-// Returns the error register: the bit of each error (CO_EMCY_TBL.Reg) and "generic error". Bit 6 is reserved.
-// [301:7.5.2.2]
+constexpr uint32_t generic = 1U << CO_EMCY_REG_GENERAL;
+
+// Returns the bits of the error register for an error (CO_EMCY_TBL.Reg): that bit and "generic error".
+inline uint32_t bits_of(const CO_EMCY_TBL& error) {
+  return generic | (error.Reg < CO_EMCY_REG_NUM ? 1U << error.Reg : 0U);
+}
+
+// Returns the error register. Bit 6 is reserved. [301:7.5.2.2]
 uint8_t register_of(const CO_EMCY& emcy) {
-  constexpr uint32_t generic = 1U << CO_EMCY_REG_GENERAL;
   constexpr uint32_t reserved = 1U << 6;
   uint32_t bits = emcy.Faults != 0 ? generic | 1U << CO_EMCY_REG_COM : 0U;
   for (uint32_t byte = 0; byte < sizeof emcy.Err; ++byte) {
     uint32_t err = byte * 8;
     for (uint32_t set = emcy.Err[byte]; set != 0; set >>= 1, ++err) {
-      const uint8_t reg = emcy.Root[err].Reg;
-      if ((set & 1U) != 0) {
-        bits |= generic | (reg < CO_EMCY_REG_NUM ? 1U << reg : 0U);
-      }
+      bits |= (set & 1U) != 0 ? bits_of(emcy.Root[err]) : 0U;
     }
   }
   return static_cast<uint8_t>(bits & ~reserved);
@@ -130,6 +132,22 @@ void report_fault(CO_EMCY& emcy, uint16_t code, uint32_t detail) {
   post(emcy, frame);
 }
 
+// Reports that an error of the application has been set or cleared: in the history and by a message. usr: may be null
+void report_change(CO_EMCY& emcy, unsigned err, bool come, const CO_EMCY_USR* usr) {
+  CO_IF_FRM frame = wire::emcy(0, 0);
+  if (come) {
+    uint32_t entry = emcy.Root[err].Code;
+    wire::put_low(frame, entry);
+    if (usr != nullptr) {
+      entry |= uint32_t{usr->Hist} << 16;
+      wire::put_emcy_bytes(frame, usr->Emcy);
+    }
+    add_to_history(emcy, entry);
+  }
+  post(emcy, frame);
+  show_bits(emcy);
+}
+
 // Sets or clears an error of the application. If there is no such error, that is the node's error. usr: may be null
 void change(CO_EMCY* emcy, unsigned err, bool come, const CO_EMCY_USR* usr) {
   ASSERT_PTR_FATAL(emcy);
@@ -142,18 +160,7 @@ void change(CO_EMCY* emcy, unsigned err, bool come, const CO_EMCY_USR* usr) {
     error::report(node, CO_ERR_BAD_ARG);
   } else if (uint8_t& bits = emcy->Err[err / 8]; ((bits & bit) != 0) != come) {
     bits = static_cast<uint8_t>(bits ^ bit);
-    CO_IF_FRM frame = wire::emcy(0, 0);
-    if (come) {
-      uint32_t entry = emcy->Root[err].Code;
-      wire::put_low(frame, entry);
-      if (usr != nullptr) {
-        entry |= uint32_t{usr->Hist} << 16;
-        wire::put_emcy_bytes(frame, usr->Emcy);
-      }
-      add_to_history(*emcy, entry);
-    }
-    post(*emcy, frame);
-    show_bits(*emcy);
+    report_change(*emcy, err, come, usr);
   }
   finish_call(node);
 }
