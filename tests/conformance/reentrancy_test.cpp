@@ -209,6 +209,23 @@ TEST_CASE("re-entrancy: a reset by the master drops frames that a reset by the a
   node.tx("701#00");
 }
 
+#if USE_NMT_MASTER
+
+TEST_CASE("re-entrancy: two resets by the application keep frames in the order in which they were queued [N4]") {
+  Fixture node(Setup().tx_queue(20));
+  node.can.refuse_all();
+  node.rx("601#4000100000000000");
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
+  node.call([&] { CHECK(CONmtCommand(&node->Nmt, CO_NMT_COMMAND_START, 9) == CO_ERR_NONE); });
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
+  node.silent();
+  node.can.accept_all();
+  node.loop();
+  node.tx({"581#4300100091010F00", "000#0109", "701#00"});
+}
+
+#endif
+
 // Slow type functions -------------------------------------------------------------------------------------------------
 
 // Lets time pass, and runs the timers, like a type function that waits for a slow memory.
