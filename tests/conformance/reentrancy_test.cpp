@@ -212,7 +212,7 @@ TEST_CASE("re-entrancy: a reset by the master drops frames that a reset by the a
 #if USE_NMT_MASTER
 
 TEST_CASE("re-entrancy: two resets by the application keep frames in the order in which they were queued [N4]") {
-  Fixture node(Setup().tx_queue(20));
+  Fixture node(Setup().tx_queue(20).nmt_master());
   node.can.refuse_all();
   node.rx("601#4000100000000000");
   node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
