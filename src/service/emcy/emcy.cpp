@@ -245,7 +245,8 @@ void on_mode(CO_NODE& node) {
   if (event::is_allowed(node, CO_EMCY_ALLOWED)) {
     return;
   }
-  withdraw(node, identifier(node));
+  // The table may be gone when the application stops the node: it is read only if frames wait.
+  withdraw(node, transmit::is_waiting(node) ? identifier(node) : wire::no_frame);
   if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
     stop_inhibit_time(node);
     for (CO_TMR_MEM& timer : node.Emcy.Hold) {
