@@ -15,7 +15,7 @@ from pathlib import Path
 
 MODULES = ["wire", "hal", "base", "dictionary", "storage", "service", "extra", "node"]
 # A service that extends another one includes it.
-EXTENDS = {"mpdo": "pdo", "sdo_client": "sdo_server"}
+EXTENDS = {"mpdo": "pdo"}
 # Public headers of src/extra.
 OF_EXTRAS = {"co_od.h", "co_od_2020.h", "co_os.h", "co_recorder.h"}
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]

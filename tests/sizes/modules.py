@@ -27,7 +27,7 @@ def pieces(text):
 
 
 def module_of(source):
-    """Returns "base" for src/base/…, "sdo_server" for src/service/sdo_server/…, "od" for src/extra/od/…."""
+    """Returns "base" for src/base/…, "sdo" for src/service/sdo/…, "od" for src/extra/od/…."""
     parts = Path(source).parts
     return parts[1] if parts[0] in ("service", "extra") else parts[0]
 

@@ -1,10 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block upload. The buffer holds a window of the object, which goes back when the client has lost segments. Segments
-// are sent as the controller accepts them. [301:7.2.4.3.13-15]
+// Uploads from a server: segments and blocks. [301:7.2.4.3.7, 7.2.4.3.13]
 #include "base/events.hpp"
 #include "base/transmit.hpp"
 #include "co_assert.h"
-#include "service/sdo_server/transfer.hpp"
+#include "service/sdo/server.hpp"
+
+namespace co::sdo_server {
+
+Abort upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
+  Abort abort = check_segment(channel, request);
+  if (abort != Abort::none) {
+    return abort;
+  }
+  const uint32_t position = channel.Num;
+  const uint32_t left = channel.Size - position;
+  abort = transfer_piece(channel, position, answer.Data + 1, left < wire::segment_bytes ? left : wire::segment_bytes);
+  if (abort != Abort::none) {
+    return abort;
+  }
+  channel.Num = channel.Read;
+  const bool last = channel.Num == channel.Size;
+  answer.Data[0] = wire::segment(channel.Flags & toggled, channel.Num - position, last);
+  channel.Flags ^= toggled;
+  return last ? close(channel, Abort::none) : Abort::none;
+}
+
+}  // namespace co::sdo_server
+
+// Block upload. The buffer holds a window of the object, which goes back when the client has lost segments. Segments
+// are sent as the controller accepts them. [301:7.2.4.3.13-15]
 
 #if USE_SDO_BLOCK
 

@@ -6,7 +6,7 @@
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/stream.hpp"
-#include "service/sdo_server/sdo_server.hpp"
+#include "service/sdo/sdo_server.hpp"
 #include "wire/sdo.hpp"
 
 namespace co::sdo_server {

@@ -5,8 +5,8 @@
 #include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/stream.hpp"
-#include "service/sdo_client/transfer.hpp"
-#include "service/sdo_server/transfer.hpp"
+#include "service/sdo/client.hpp"
+#include "service/sdo/server.hpp"
 
 #if USE_CSDO && USE_CSDO_OWN
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Initiate requests of all transfers, and expedited transfers. [301:7.2.4.3.3-14]
-#include "service/sdo_server/transfer.hpp"
+#include "service/sdo/server.hpp"
 
 namespace co::sdo_server {
 namespace {

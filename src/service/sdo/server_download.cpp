@@ -1,9 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block download. Segments are collected in the buffer, which is written to the object when it is full, and at the end
-// of the transfer after the checks of length and CRC. [301:7.2.4.3.9-11]
+// Downloads to a server: segments, the end of every download, and blocks. [301:7.2.4.3.4, 7.2.4.3.9]
 #include "base/transmit.hpp"
 #include "co_assert.h"
-#include "service/sdo_server/transfer.hpp"
+#include "service/sdo/server.hpp"
+
+namespace co::sdo_server {
+
+Abort check_total(CO_SDO& channel, uint32_t total) {
+  if (total > channel.Size) {
+    return Abort::too_long;
+  }
+  if (channel.Obj == nullptr) {
+    return Abort::device_state;
+  }
+  return has(channel, sized) ? access::compare_length(total, channel.Size)
+                             : access::check_length(*channel.Node, *channel.Obj, total);
+}
+
+Abort finish_download(CO_SDO& channel) {
+  CO_ASSERT(!has(channel, whole) || channel.Obj != nullptr);
+  const Abort abort = has(channel, whole) ? begin_data(channel, *channel.Obj, channel.Value, channel.Num) : Abort::none;
+  return abort == Abort::none ? close(channel, Abort::none) : abort;
+}
+
+Abort download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
+  const uint8_t command = request.Data[0];
+  Abort abort = check_segment(channel, request);
+  if (abort != Abort::none) {
+    return abort;
+  }
+  const uint32_t left = channel.Size - channel.Num;
+  const uint32_t n = has(channel, sized) ? wire::segment_length(command, left) : wire::segment_length(command);
+  if (n > left) {
+    return Abort::too_long;
+  }
+  if (wire::is_last_segment(command)) {
+    set_total(channel, n);
+  }
+  CO_IF_FRM segment = request;  // a copy, because a type function may change its buffer
+  abort = transfer_piece(channel, channel.Num, segment.Data + 1, n);
+  channel.Num = channel.Read;
+  answer.Data[0] = wire::download_segment_response(channel.Flags & toggled);
+  channel.Flags ^= toggled;
+  if (abort != Abort::none || !wire::is_last_segment(command)) {
+    return abort;
+  }
+  abort = check_total(channel, channel.Num);
+  return abort == Abort::none ? finish_download(channel) : abort;
+}
+
+}  // namespace co::sdo_server
+
+// Block download. Segments are collected in the buffer, which is written to the object when it is full, and at the end
+// of the transfer after the checks of length and CRC. [301:7.2.4.3.9-11]
 
 #if USE_SDO_BLOCK
 

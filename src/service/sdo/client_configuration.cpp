@@ -4,7 +4,7 @@
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/integer.hpp"
-#include "service/sdo_client/transfer.hpp"
+#include "service/sdo/client.hpp"
 #include "wire/cob_id.hpp"
 
 #if USE_CSDO

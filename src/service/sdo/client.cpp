@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "service/sdo_client/sdo_client.hpp"
+#include "service/sdo/sdo_client.hpp"
 
 #include "base/events.hpp"
 #include "base/state_machine.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
-#include "service/sdo_client/transfer.hpp"
+#include "service/sdo/client.hpp"
 #include "wire/cob_id.hpp"
 
 #if USE_CSDO

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "service/sdo_server/sdo_server.hpp"
+#include "service/sdo/sdo_server.hpp"
 
 #include "base/events.hpp"
 #include "base/routes.hpp"
@@ -8,9 +8,8 @@
 #include "base/transmit.hpp"
 #include "co_assert.h"
 #include "dictionary/dict.hpp"
-#include "service/sdo_server/number.hpp"
-#include "service/sdo_server/segment.hpp"
-#include "service/sdo_server/transfer.hpp"
+#include "service/sdo/fast_paths.hpp"
+#include "service/sdo/server.hpp"
 #include "wire/cob_id.hpp"
 
 namespace co::sdo_server {

@@ -4,7 +4,7 @@
 
 #include "co_csdo.h"
 #include "dictionary/abort_code.hpp"
-#include "service/sdo_client/sdo_client.hpp"
+#include "service/sdo/sdo_client.hpp"
 #include "wire/sdo.hpp"
 
 namespace co::sdo_client {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "service/sdo_server/transfer.hpp"
+#include "service/sdo/server.hpp"
 
 #include "base/access_hook.hpp"
 #include "base/error.hpp"
