@@ -64,22 +64,12 @@ typedef struct CO_CSDO_T {
   struct CO_NODE_T* Node;   ///< owner
   CO_CSDO_STATE State;      ///< state for the application
   uint8_t NodeId;           ///< node-ID of the server
-  uint8_t Step;             ///< state of the protocol
-  uint8_t Flags;            ///< flags of the transfer
-  uint8_t Toggle;           ///< toggle bit of the current segment, as in the frame (00h or 10h)
-  uint8_t BlkSize;          ///< segments of a block
-  uint8_t Seq;              ///< last segment of the block that was sent or received in sequence
-  uint8_t AckSeq;           ///< block upload: last ackseq sent
-  uint8_t Silence;          ///< block upload: quarters of the time-out without a segment
-  uint16_t Crc;             ///< CRC of the data so far
+  CO_SDO_FLOW Flow;         ///< data of the transfer; Size: bytes at Buf, until the server announces the size
   uint32_t RxId;            ///< identifier of the server's frames, as in CO_IF_FRM; FFFF FFFFh: none
   uint32_t TxId;            ///< identifier of the client's frames
   uint32_t WasTxId;         ///< previous TxId, under which an abort may still be in the transmit queue
   CO_CSDO_CALLBACK_T Call;  ///< callback of the transfer
   uint8_t* Buf;             ///< buffer, owned by the caller
-  uint32_t Size;            ///< bytes at Buf
-  uint32_t Num;             ///< bytes transferred; those of the current block are counted when it is acknowledged
-  uint32_t Total;           ///< bytes that the transfer will have; 0: unknown
   uint32_t Key;             ///< CO_DEV() of the object
   uint32_t Ticks;           ///< time-out in ticks; 0: none. Also the result of a cancelled access to the own dictionary
   CO_TMR_MEM Tmr;           ///< time-out, or start of an access to the own dictionary

@@ -77,6 +77,24 @@
 extern "C" {
 #endif
 
+/// Data of a transfer, which SDO servers and clients have in common. Private.
+typedef struct CO_SDO_FLOW_T {
+  uint8_t State;  ///< state of the protocol; 0: no transfer is open
+  uint8_t Flags;  ///< flags of the transfer
+  uint8_t Idle;   ///< parts of the time-out without a frame of the transfer
+#if USE_SDO_BLOCK || (USE_CSDO && CO_CSDO_BLOCK > 0)
+  uint8_t Heard;    ///< block received: highest sequence number so far; 0: none
+  uint8_t BlkSize;  ///< segments of the current block
+  uint8_t Seq;      ///< last segment of the block that was sent, or received in sequence
+  uint8_t AckSeq;   ///< block received: last ackseq sent
+  uint8_t AckSize;  ///< block received: blksize of the last acknowledge; 0: none was sent yet
+  uint16_t Crc;     ///< block transfer: CRC of the data so far
+  uint16_t Fill;    ///< block transfer: bytes in the buffer
+#endif
+  uint32_t Size;  ///< bytes that the transfer will have, or its maximum
+  uint32_t Num;   ///< bytes transferred so far; block sent: bytes acknowledged
+} CO_SDO_FLOW;
+
 /// \name 1200h…12FFh sub 1 and 2, COB-IDs of SDO servers and clients
 /// [CiA 301, 7.5.2.33-34] Data: a uint32_t, or the value itself (flag D); flag N: the CAN-ID is relative to the node-
 /// ID. A change is possible only from or to "not valid" (bit 31); other changes are refused with CO_ERR_OBJ_RANGE, and

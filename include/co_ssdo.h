@@ -14,32 +14,19 @@
 extern "C" {
 #endif
 
-/// One SDO server channel (1200h, 1201h, …). Invariants between frames (sdo_server.cpp, is_consistent()):
+/// One SDO server channel (1200h, 1201h, …). Invariants between frames (server.cpp, is_consistent()):
 /// - without an open transfer (State 0) there is no object: Obj is null;
 /// - in a block, Seq and AckSeq are at most 127, and the buffer contains at most CO_SDO_BUF_BYTE bytes (Fill).
 typedef struct CO_SDO_T {
   struct CO_NODE_T* Node;  ///< owner
-  uint8_t State;           ///< state of the protocol; 0: no transfer is open
-  uint8_t Flags;           ///< flags of the transfer
-  uint8_t Idle;            ///< time slices since the last frame of the transfer
-#if USE_SDO_BLOCK
-  uint8_t Heard;    ///< block download: highest sequence number received in the current block; 0: none
-  uint8_t BlkSize;  ///< segments of the current block
-  uint8_t Seq;      ///< last segment of the block that was sent, or received in sequence
-  uint8_t AckSeq;   ///< block download: last ackseq sent
-  uint8_t AckSize;  ///< block download: blksize of the last acknowledge; 0: none was sent yet
-  uint16_t Crc;     ///< block transfer: CRC of the data so far
-  uint16_t Fill;    ///< block transfer: bytes in the buffer
-#endif
-  uint8_t Value[8];  ///< collects a value of up to 8 bytes, in the byte order of the bus
-  CO_OBJ* Obj;       ///< entry of the open transfer; null: none
-  uint32_t RxId;     ///< identifier of the client's frames, as in CO_IF_FRM; FFFF FFFFh: the channel is off
-  uint32_t TxId;     ///< identifier of the server's frames
-  uint32_t WasTxId;  ///< previous TxId, under which a response may still be in the transmit queue
-  uint32_t Key;      ///< CO_DEV() of the open transfer
-  uint32_t Size;     ///< bytes that the transfer will have, or its maximum
-  uint32_t Num;      ///< bytes transferred so far; block upload: bytes acknowledged
-  uint32_t Read;     ///< position behind the last bytes read or written
+  CO_SDO_FLOW Flow;        ///< data of the open transfer
+  uint8_t Value[8];        ///< collects a value of up to 8 bytes, in the byte order of the bus
+  CO_OBJ* Obj;             ///< entry of the open transfer; null: none
+  uint32_t RxId;           ///< identifier of the client's frames, as in CO_IF_FRM; FFFF FFFFh: the channel is off
+  uint32_t TxId;           ///< identifier of the server's frames
+  uint32_t WasTxId;        ///< previous TxId, under which a response may still be in the transmit queue
+  uint32_t Key;            ///< CO_DEV() of the open transfer
+  uint32_t Read;           ///< position behind the last bytes read or written
 #if USE_SDO_BLOCK
   uint32_t Summed;  ///< block upload: bytes that Crc covers
 #endif

@@ -68,7 +68,7 @@ bool is_open(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by) {
 uint32_t total_of(const CO_NODE& node, const CO_OBJ& obj) {
   for (const CO_SDO& channel : node.Sdo) {
     if (channel.Obj == &obj) {
-      return channel.Size;
+      return channel.Flow.Size;
     }
   }
   return 0;

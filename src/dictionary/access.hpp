@@ -58,11 +58,13 @@ enum TransferFlag : uint8_t {
 };
 
 [[nodiscard]] inline CO_OBJ_TRANSFER direction_of(const CO_SDO& channel) {
-  return (channel.Flags & download) != 0 ? CO_OBJ_DOWNLOAD : CO_OBJ_UPLOAD;
+  return (channel.Flow.Flags & download) != 0 ? CO_OBJ_DOWNLOAD : CO_OBJ_UPLOAD;
 }
 
 // Returns whether the type's Begin function was called, so that its End function has to be called.
-[[nodiscard]] inline bool is_begun(const CO_SDO& channel) { return USE_OBJ_EX != 0 && (channel.Flags & begun) != 0; }
+[[nodiscard]] inline bool is_begun(const CO_SDO& channel) {
+  return USE_OBJ_EX != 0 && (channel.Flow.Flags & begun) != 0;
+}
 
 // Ends the transfer of a channel: calls the End function of the type now. The server aborts the transfer (0800 0022h)
 // at the next frame of the client.

@@ -159,6 +159,7 @@ constexpr bool is_blksize(uint8_t blksize) { return blksize >= 1 && blksize <= m
 constexpr uint8_t initiate_block(bool sized) { return sized ? 0xC6 : 0xC4; }
 constexpr uint8_t end_block(uint32_t unused) { return static_cast<uint8_t>(0xC1U | (unused << 2)); }
 constexpr uint32_t unused_in_block(uint8_t command) { return (command >> 2) & 0x07U; }
+constexpr bool is_end_of_blocks(uint8_t command) { return (command & 0xE3) == 0xC1; }
 constexpr bool is_block_sized(uint8_t command) { return (command & 0x02) != 0; }
 
 // Command bytes of the side that receives the data: 101x xcss.
@@ -213,6 +214,7 @@ static_assert(segment_length(0x0F) == 0 && segment_length(0x00) == 7 && segment_
 static_assert(segment_length(0x11, 3) == 3 && segment_length(0x01, 0) == 7 && segment_length(0x01, 8) == 7);
 static_assert(segment_length(0x10, 3) == 7 && segment_length(0x03, 3) == 6 && segment_length(0x01, 7) == 7);
 static_assert(segment(0x10, 2, true) == 0x1B && download_segment_response(0x10) == 0x30);
+static_assert(is_end_of_blocks(0xC1) && is_end_of_blocks(0xDD) && !is_end_of_blocks(0xC3) && !is_end_of_blocks(0xC4));
 static_assert(end_block(3) == 0xCD && unused_in_block(0xDD) == 7 && block_segment(1, true) == 0x81);
 static_assert(has_crc(0xA4) && !has_crc(0xC2) && is_block_sized(0xC2) && !is_block_sized(0xC4));
 

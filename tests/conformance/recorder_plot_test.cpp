@@ -106,7 +106,7 @@ TEST_CASE("plot: the configuration is not changed during a read [R4] [R5]") {
   record(node, 1, 3);
   node.call([&] {
     CO_SDO* const server = node->Sdo;
-    CHECK(server[0].State == 0);
+    CHECK(server[0].Flow.State == 0);
   });
   node.ask("601#4001240500000000", "581#4001240500000000");
   node.call([&] {

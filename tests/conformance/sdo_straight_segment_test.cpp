@@ -52,14 +52,14 @@ class Pair {
     straight_.domain.Start = straight_.domain.Start == nullptr ? straight_.memory.data() : nullptr;
     machine_.domain.Start = machine_.domain.Start == nullptr ? machine_.memory.data() : nullptr;
   }
-  bool is_open() { return straight_->Sdo[0].State != 0; }
+  bool is_open() { return straight_->Sdo[0].Flow.State != 0; }
   const std::string& difference() const { return difference_; }
 
  private:
   void compare(const std::string& what) {
     const bool same = straight_.frames() == machine_.frames() && straight_.memory == machine_.memory &&
                       straight_.domain.Offset == machine_.domain.Offset &&
-                      straight_->Sdo[0].State == machine_->Sdo[0].State;
+                      straight_->Sdo[0].Flow.State == machine_->Sdo[0].Flow.State;
     if (!same && difference_.empty()) {
       difference_ = "after " + what;
     }
@@ -160,7 +160,7 @@ TEST_CASE("SDO server: each segment of a domain restarts the time-out") {
       node.rx(request);
       CHECK(node.frames().size() == 1);
     }
-    CHECK(node->Sdo[0].Num == 84);
+    CHECK(node->Sdo[0].Flow.Num == 84);
     node.after(node.sdo_time_out());
     node.tx("581#8000310000000405");
   }
@@ -185,8 +185,8 @@ TEST_CASE("SDO server: segments of a block beyond the size of the object are not
     segment.Data[0] = static_cast<std::uint8_t>(n);
     node.rx(segment);
   }
-  CHECK(node->Sdo[0].Fill == 14);
-  CHECK(node->Sdo[0].Seq == 2);
+  CHECK(node->Sdo[0].Flow.Fill == 14);
+  CHECK(node->Sdo[0].Flow.Seq == 2);
   node.after(node.sdo_time_out());
   node.tx("581#8000310012000706");
 }

@@ -63,7 +63,7 @@ void Fixture::check_memory(Where at) {
   ChangeableEntries may;
   for (std::size_t n = 0; n < channels_.size(); ++n) {
     channels_[n].take_changeable(may);
-    if (node.Sdo[n].State == 0) {
+    if (node.Sdo[n].Flow.State == 0) {
       channels_[n].close();
     }
   }
@@ -102,7 +102,7 @@ std::ptrdiff_t armed_of_clients([[maybe_unused]] const CO_NODE& node, [[maybe_un
 }
 
 bool is_open(const CO_NODE& node) {
-  return std::any_of(std::begin(node.Sdo), std::end(node.Sdo), [](const CO_SDO& sdo) { return sdo.State != 0; });
+  return std::any_of(std::begin(node.Sdo), std::end(node.Sdo), [](const CO_SDO& sdo) { return sdo.Flow.State != 0; });
 }
 
 }  // namespace
@@ -152,7 +152,7 @@ std::string Fixture::difference(const Fixture& other) const {
   for (unsigned n = 0; n < CO_SSDO_N; ++n) {
     const CO_SDO& a = node.Sdo[n];
     const CO_SDO& b = other.node.Sdo[n];
-    if (a.Obj != b.Obj || a.RxId != b.RxId || a.TxId != b.TxId || a.State != b.State) {
+    if (a.Obj != b.Obj || a.RxId != b.RxId || a.TxId != b.TxId || a.Flow.State != b.Flow.State) {
       return "SDO server " + std::to_string(n);
     }
   }

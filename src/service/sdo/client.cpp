@@ -10,7 +10,7 @@
 
 #if USE_CSDO
 
-namespace co::sdo_client {
+namespace co::sdo::client {
 namespace {
 
 void on_time(void* client_pointer) {
@@ -39,10 +39,8 @@ Abort aborted(Step& step) {
     put_initiate(step.client, false, step.request);
     return Abort::none;
   }
-  step.silent = true;
-  step.done = true;
-  step.result = wire::abort_code_in(step.response);
-  return Abort::none;
+  complete(step);
+  return wire::abort_code_in(step.response);
 }
 
 using Handler = Abort (*)(Step&);
@@ -67,7 +65,7 @@ constexpr Transition<Response, Handler> rows[] = {
     {in(State::block_download_initiated, State::block_download), Response::initiate_block_download,
      block_download_accepted},
     {in(State::block_download), Response::acknowledge_block, block_acknowledged},
-    {in(State::block_download_end), Response::end_block_download, block_download_confirmed},
+    {in(State::block_download_end), Response::end_block_download, complete},
 
     {in(State::block_upload_initiated), Response::initiate_block_upload, block_upload_accepted},
     {in(State::block_upload, State::block_upload_end), Response::block_segment, block_segment_uploaded},
@@ -132,8 +130,8 @@ CO_ERR start(CO_CSDO& client, uint32_t timeout) {
   return send_initiate(client);
 }
 
-CO_ERR check(CO_CSDO* client, const uint8_t* buf, bool has_size, CO_CSDO_CALLBACK_T callback) {
-  if (client == nullptr || client->Node == nullptr || buf == nullptr || callback == nullptr || !has_size) {
+CO_ERR check(CO_CSDO* client, const uint8_t* buf, bool is_empty, CO_CSDO_CALLBACK_T callback) {
+  if (client == nullptr || client->Node == nullptr || buf == nullptr || callback == nullptr || is_empty) {
     return CO_ERR_BAD_ARG;
   }
   if (client->State == CO_CSDO_STATE_BUSY) {
@@ -146,32 +144,36 @@ CO_ERR check(CO_CSDO* client, const uint8_t* buf, bool has_size, CO_CSDO_CALLBAC
 
 CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                uint32_t timeout, uint8_t flags) {
-  const CO_ERR err = check(client, buf, size != 0 || flags != is_upload, callback);
+  const CO_ERR err = check(client, buf, (size | flags) == 0, callback);
   if (err != CO_ERR_NONE) {
     return err;
   }
   client->Key = CO_GET_DEV(key);
   client->Buf = buf;
-  client->Size = size;
+  client->Flow.Size = size;
   client->Call = callback;
-  client->Flags = flags;
+  client->Flow.Flags = flags;
   return start(*client, timeout);
 }
 
-// Not inlined: relative to a pointer to the client, all members are reached by short loads.
+// An idle client ignores frames: responses to other clients with the same COB-IDs, and late responses. Not inlined:
+// relative to a pointer to the client, all members are reached by short loads.
 [[gnu::noinline]] void process_response(CO_CSDO& client, const CO_IF_FRM& response) {
+  if (client.State != CO_CSDO_STATE_BUSY || is_for_another(client, response)) {
+    return;
+  }
   CO_IF_FRM request = wire::empty_frame(client.TxId);
-  Step step = {client, response, request, false, false, Abort::none};
+  Step step = {client, response, request, false};
   const Abort abort = state_machine(state_of(client), response_in(client, response))(step);
-  if (abort != Abort::none) {
+  if (abort != Abort::none && !step.done) {
     abort_transfer(client, abort);
     return;
   }
-  if (!step.silent) {
+  if (request.DLC != 0) {
     transmit::send(*client.Node, request);
   }
   if (step.done) {
-    finish(client, step.result);
+    finish(client, abort);
     return;
   }
   if constexpr (has_block) {
@@ -181,8 +183,8 @@ CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CS
       return;
     }
   }
-  if (!step.silent) {
-    client.Silence = 0;
+  if (request.DLC != 0) {
+    client.Flow.Idle = 1;
     start_timeout(client);
   }
 }
@@ -194,7 +196,6 @@ void start_timeout(CO_CSDO& client) {
     return;
   }
   const uint32_t ticks = receives_block(client) ? (client.Ticks - 1) / quarters + 1 : client.Ticks;
-  clear(client, active);
   tmr::start(*client.Node, client.Tmr, ticks, 0, on_time, &client);
 }
 
@@ -217,16 +218,13 @@ void abort_transfer(CO_CSDO& client, Abort code) {
 constexpr auto pst = static_cast<uint8_t>(CO_CSDO_BLOCK - 1);
 
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request) {
-  const bool upload = has(client, is_upload);
-  const bool block = has_block && by_block && client.Size > pst;
+  const bool upload = !has(client.Flow, download);
+  const bool block = has_block && by_block && client.Flow.Size > pst;
   const bool expedited = is_expedited(client);
-  client.Flags = upload ? is_upload : 0;
-  client.Num = 0;
-  client.Total = upload ? 0 : client.Size;
-  client.Toggle = 0;
-  client.Crc = 0;
-  client.AckSeq = 0;
-  client.Silence = 0;
+  const uint32_t size = client.Flow.Size;
+  client.Flow = {};
+  client.Flow.Flags = upload ? 0 : download | sized;
+  client.Flow.Size = size;
   if (upload) {
     set_state(client, block ? State::block_upload_initiated : State::upload_initiated);
     wire::put_head(request, block ? wire::accept_block : wire::initiate_upload_request, client.Key);
@@ -236,11 +234,11 @@ void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request) {
   }
   set_state(client, block ? State::block_download_initiated : State::download_initiated);
   const uint8_t segmented = block ? wire::initiate_block(true) : wire::initiate_download_request_sized;
-  wire::put_head(request, expedited ? wire::expedited_download_request(client.Size) : segmented, client.Key);
+  wire::put_head(request, expedited ? wire::expedited_download_request(client.Flow.Size) : segmented, client.Key);
   if (expedited) {
-    __builtin_memcpy(request.Data + 4, client.Buf, client.Size);
+    __builtin_memcpy(request.Data + 4, client.Buf, client.Flow.Size);
   } else {
-    wire::put_high(request, client.Size);
+    wire::put_high(request, client.Flow.Size);
   }
 }
 
@@ -255,14 +253,12 @@ void init(CO_NODE& node) {
   configure(node);
 }
 
-// An idle client ignores frames: responses to other clients with the same COB-IDs, and late responses.
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
-  const bool well_formed = frame.DLC == wire::sdo_dlc;
-  CO_CSDO& client = node.CSdo[number];
-  if (well_formed && client.State == CO_CSDO_STATE_BUSY && !is_for_another(client, frame)) {
-    process_response(client, frame);
+  if (frame.DLC != wire::sdo_dlc) {
+    return false;
   }
-  return well_formed;
+  process_response(node.CSdo[number], frame);
+  return true;
 }
 
 void on_mode(CO_NODE& node) {
@@ -289,7 +285,7 @@ bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
   return false;
 }
 
-}  // namespace co::sdo_client
+}  // namespace co::sdo::client
 
 using namespace co;
 
@@ -299,18 +295,18 @@ CO_CSDO* COCSdoFind(CO_NODE* node, uint8_t num) {
   if (node == nullptr || num >= CO_CSDO_N || node->CSdo[num].Node == nullptr) {
     return nullptr;
   }
-  sdo_client::refresh(node->CSdo[num]);
+  sdo::client::refresh(node->CSdo[num]);
   return node->CSdo[num].State == CO_CSDO_STATE_INVALID ? nullptr : &node->CSdo[num];
 }
 
 CO_ERR COCSdoRequestUpload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                            uint32_t timeout) {
-  return sdo_client::request(csdo, key, buf, size, callback, timeout, sdo_client::is_upload);
+  return sdo::client::request(csdo, key, buf, size, callback, timeout, 0);
 }
 
 CO_ERR COCSdoRequestDownload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                              uint32_t timeout) {
-  return sdo_client::request(csdo, key, buf, size, callback, timeout, 0);
+  return sdo::client::request(csdo, key, buf, size, callback, timeout, sdo::download | sdo::sized);
 }
 
 CO_ERR COCSdoCancel(CO_CSDO* csdo) {
@@ -320,18 +316,20 @@ CO_ERR COCSdoCancel(CO_CSDO* csdo) {
   if (csdo->State != CO_CSDO_STATE_BUSY) {
     return CO_ERR_SDO_OFF;
   }
-  if constexpr (sdo_client::has_own) {
-    if (sdo_client::cancel_running_own_access(*csdo)) {
+  if constexpr (sdo::client::has_own) {
+    if (sdo::client::cancel_running_own_access(*csdo)) {
       return CO_ERR_NONE;
     }
   }
-  sdo_client::abort_transfer(*csdo, Abort::local_control);
+  sdo::client::abort_transfer(*csdo, Abort::local_control);
   return CO_ERR_NONE;
 }
 
-uint32_t COCSdoGetNum(const CO_CSDO* csdo) { return csdo == nullptr ? 0 : csdo->Num; }
+uint32_t COCSdoGetNum(const CO_CSDO* csdo) { return csdo == nullptr ? 0 : csdo->Flow.Num; }
 
-uint32_t COCSdoGetTotal(const CO_CSDO* csdo) { return csdo == nullptr ? 0 : csdo->Total; }
+uint32_t COCSdoGetTotal(const CO_CSDO* csdo) {
+  return csdo == nullptr || !sdo::has(csdo->Flow, sdo::sized) ? 0 : csdo->Flow.Size;
+}
 
 }  // extern "C"
 

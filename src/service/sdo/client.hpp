@@ -4,10 +4,10 @@
 
 #include "co_csdo.h"
 #include "dictionary/abort_code.hpp"
+#include "service/sdo/flow.hpp"
 #include "service/sdo/sdo_client.hpp"
-#include "wire/sdo.hpp"
 
-namespace co::sdo_client {
+namespace co::sdo::client {
 
 // State of the protocol: the response that the client awaits.
 enum class State : uint8_t {
@@ -31,36 +31,22 @@ enum class State : uint8_t {
 inline constexpr bool has_block = CO_CSDO_BLOCK != 0;
 inline constexpr bool has_own = USE_CSDO_OWN != 0;
 
-// CO_CSDO.Flags
-enum Flag : uint8_t {
-  is_upload = 0x01,
-  sized = 0x02,      // the server has announced the size of an upload
-  crc = 0x04,        // both sides support the CRC
-  heard = 0x08,      // block upload: a segment of the current block has arrived
-  active = 0x10,     // block upload: a segment has arrived since the timer was started
-  last_sent = 0x20,  // block download: the last segment of the transfer was sent
-};
-
-// Context of a handler of the state machine: the client, the response, and the next request.
+// Context of a handler of the state machine: the client, the response, and the next request, which it may silence().
 struct Step {
   CO_CSDO& client;
   const CO_IF_FRM& response;
   CO_IF_FRM& request;
-  bool silent;   // no request is sent
-  bool done;     // the transfer is complete; the request, if any, is the last one
-  Abort result;  // abort code of the transfer, valid with done
+  bool done;  // the transfer ends; the request, if any, is the last one
 };
 
-inline State state_of(const CO_CSDO& client) { return static_cast<State>(client.Step); }
-inline void set_state(CO_CSDO& client, State state) { client.Step = static_cast<uint8_t>(state); }
-inline bool has(const CO_CSDO& client, Flag flag) { return (client.Flags & flag) != 0; }
-inline void set(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8_t>(client.Flags | flag); }
-inline void clear(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8_t>(client.Flags & ~flag); }
+inline State state_of(const CO_CSDO& client) { return static_cast<State>(client.Flow.State); }
+inline void set_state(CO_CSDO& client, State state) { client.Flow.State = static_cast<uint8_t>(state); }
 
 // Returns whether a download fits into the first request. One without data does not: it needs a segment.
-[[nodiscard]] inline bool is_expedited(const CO_CSDO& client) { return client.Size - 1 < wire::expedited_bytes; }
+[[nodiscard]] inline bool is_expedited(const CO_CSDO& client) { return client.Flow.Size - 1 < wire::expedited_bytes; }
 
-// Handlers of the state machine. They return the abort code with which the client ends the transfer.
+// Handlers of the state machine. They return the abort code with which the client ends the transfer; it is sent to the
+// server unless the transfer is done.
 // [301:7.2.4.3]
 [[nodiscard]] Abort download_accepted(Step& step);
 [[nodiscard]] Abort segment_downloaded(Step& step);
@@ -68,7 +54,7 @@ inline void clear(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8
 [[nodiscard]] Abort segment_uploaded(Step& step);
 [[nodiscard]] Abort block_download_accepted(Step& step);
 [[nodiscard]] Abort block_acknowledged(Step& step);
-[[nodiscard]] Abort block_download_confirmed(Step& step);
+Abort complete(Step& step);  // ends the transfer: nothing remains to be sent
 [[nodiscard]] Abort block_upload_accepted(Step& step);
 [[nodiscard]] Abort block_segment_uploaded(Step& step);
 [[nodiscard]] Abort block_upload_ended(Step& step);
@@ -90,11 +76,6 @@ void abort_transfer(CO_CSDO& client, Abort code);
 
 // Fills the first request of a transfer. by_block: requests a block transfer if the data are long enough.
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request);
-
-// Stores the size that the server announces. Returns an abort code.
-[[nodiscard]] Abort store_size(Step& step);
-// Compares a total length with the announced size. Returns an abort code.
-[[nodiscard]] Abort check_total(const CO_CSDO& client, uint32_t total);
 
 // Block transfer (CO_CSDO_BLOCK not 0) --------------------------------------------------------------------------
 
@@ -124,4 +105,4 @@ void queue_own_access(CO_CSDO& client);
 // Cancels the access to the own dictionary if it is running: its callback is called after it. Returns whether it is.
 [[nodiscard]] bool cancel_running_own_access(CO_CSDO& client);
 
-}  // namespace co::sdo_client
+}  // namespace co::sdo::client

@@ -9,7 +9,7 @@
 
 #if USE_CSDO
 
-namespace co::sdo_client {
+namespace co::sdo::client {
 namespace {
 
 struct Configuration {
@@ -31,9 +31,9 @@ Configuration read_configuration(CO_NODE& node, uint16_t number) {
   const uint32_t tx = dict::read_cob_id(node, CO_DEV(0x1280U + number, 1), wire::cob_invalid);
   const uint32_t rx = dict::read_cob_id(node, CO_DEV(0x1280U + number, 2), wire::cob_invalid);
   found.node_id = static_cast<uint8_t>(dict::read_number(node, CO_DEV(0x1280U + number, 3), sizeof found.node_id, 0));
-  const uint8_t relative = are_bases(tx, rx) ? found.node_id : 0;
-  const bool has_id = relative != 0 || !are_bases(tx, rx);
-  if (tx == wire::cob_invalid || rx == wire::cob_invalid || !has_id || relative > last_node_id) {
+  const bool is_relative = are_bases(tx, rx);
+  const uint32_t relative = is_relative ? found.node_id : 0;
+  if (tx == wire::cob_invalid || rx == wire::cob_invalid || (is_relative && relative - 1 >= last_node_id)) {
     return found;
   }
   const bool is_own = found.node_id == node.NodeId;
@@ -51,7 +51,9 @@ bool is_configured(const CO_CSDO& client, const Configuration& as) {
          is_off == (as.state == CO_CSDO_STATE_INVALID);
 }
 
-uint16_t number_of(const CO_CSDO& client) { return static_cast<uint16_t>(&client - client.Node->CSdo); }
+uint16_t number_of(const CO_CSDO& client) {
+  return static_cast<uint16_t>(CO_CSDO_N == 1 ? 0 : &client - client.Node->CSdo);
+}
 
 void apply_configuration(CO_CSDO& client, const Configuration& found) {
   CO_NODE& node = *client.Node;
@@ -102,6 +104,6 @@ void refresh(CO_CSDO& client) {
   }
 }
 
-}  // namespace co::sdo_client
+}  // namespace co::sdo::client
 
 #endif

@@ -13,7 +13,7 @@
 #include "dictionary/types/number.hpp"
 #include "service/sdo/server.hpp"
 
-namespace co::sdo_server {
+namespace co::sdo::server {
 
 // Returns whether a callback of the application takes part in transfers.
 inline bool has_callbacks(const CO_NODE& node) {
@@ -80,7 +80,8 @@ inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
 // Segmented transfer. Returns whether the request contains or asks for 7 bytes in sequence, and more are left.
 [[gnu::always_inline]] inline bool is_next_segment(const CO_SDO& channel, const CO_IF_FRM& request, bool is_upload) {
   const uint8_t command = is_upload ? wire::upload_segment_request(0) : wire::segment(0, wire::segment_bytes, false);
-  return request.Data[0] - command == (channel.Flags & toggled) && channel.Size - channel.Num > wire::segment_bytes;
+  return request.Data[0] - command == (channel.Flow.Flags & toggled) &&
+         channel.Flow.Size - channel.Flow.Num > wire::segment_bytes;
 }
 
 // Returns the next segment of a domain in its memory, and sets its position behind it, as its Read and Write functions
@@ -92,12 +93,12 @@ inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
     return nullptr;
   }
   auto* const domain = data_of<CO_OBJ_DOM>(*obj);
-  const uint32_t end = channel.Num + wire::segment_bytes;
+  const uint32_t end = channel.Flow.Num + wire::segment_bytes;
   if (domain == nullptr || domain->Start == nullptr || domain->Size < end) {
     return nullptr;
   }
   domain->Offset = end;
-  return domain->Start + channel.Num;
+  return domain->Start + channel.Flow.Num;
 }
 
 // Segmented transfer of a domain.
@@ -112,13 +113,13 @@ inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
     return false;
   }
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
-  const auto toggle = static_cast<uint8_t>(channel.Flags & toggled);
+  const auto toggle = static_cast<uint8_t>(channel.Flow.Flags & toggled);
   answer.Data[0] =
       is_upload ? wire::segment(toggle, wire::segment_bytes, false) : wire::download_segment_response(toggle);
   wire::copy_segment(is_upload ? answer.Data + 1 : bytes, is_upload ? bytes : request.Data + 1);
-  channel.Num += wire::segment_bytes;
-  channel.Flags ^= toggled;
-  channel.Idle = 0;
+  channel.Flow.Num += wire::segment_bytes;
+  channel.Flow.Flags ^= toggled;
+  channel.Flow.Idle = 0;
   if (!is_upload) {
     event::write_object(node, *obj);
   }
@@ -132,17 +133,17 @@ inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
 // Block download: the segment after the previous one, in a block of which no segment is missing.
 [[gnu::always_inline]] inline bool store_straight(CO_SDO& channel, const CO_IF_FRM& segment) {
   const uint8_t number = segment.Data[0];
-  const uint32_t end = channel.Fill + wire::segment_bytes;
-  const bool is_next = number == channel.Seq + 1 && channel.Heard == channel.Seq;
-  if (!is_next || number >= channel.BlkSize || end > channel.Size - channel.Num) {
+  const uint32_t end = channel.Flow.Fill + wire::segment_bytes;
+  const bool is_next = number == channel.Flow.Seq + 1 && channel.Flow.Heard == channel.Flow.Seq;
+  if (!is_next || number >= channel.Flow.BlkSize || end > channel.Flow.Size - channel.Flow.Num) {
     return false;
   }
   CO_ASSERT(end <= CO_SDO_BUF_BYTE);
-  wire::copy_segment(buffer_of(channel) + channel.Fill, segment.Data + 1);
-  channel.Fill = static_cast<uint16_t>(end);
-  channel.Seq = number;
-  channel.Heard = number;
-  channel.Idle = 0;
+  wire::copy_segment(buffer_of(channel) + channel.Flow.Fill, segment.Data + 1);
+  channel.Flow.Fill = static_cast<uint16_t>(end);
+  channel.Flow.Seq = number;
+  channel.Flow.Heard = number;
+  channel.Flow.Idle = 0;
   return true;
 }
 #else
@@ -160,4 +161,4 @@ inline bool store_straight(const CO_SDO&, const CO_IF_FRM&) { return false; }
   return (is_upload || state == State::download) && pass_segment(channel, frame, is_upload);
 }
 
-}  // namespace co::sdo_server
+}  // namespace co::sdo::server

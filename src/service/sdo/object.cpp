@@ -9,7 +9,7 @@
 #include "co_assert.h"
 #include "dictionary/types/stream.hpp"
 
-namespace co::sdo_server {
+namespace co::sdo::server {
 namespace {
 
 constexpr bool has_time_out = CO_SDO_TIMEOUT != 0;
@@ -26,11 +26,11 @@ void count_slice(CO_SDO& channel) {
   if (state_of(channel) == State::idle) {
     return;
   }
-  ++channel.Idle;
-  if (channel.Idle == slices) {
+  ++channel.Flow.Idle;
+  if (channel.Flow.Idle == slices) {
     abort_transfer(channel, Abort::time_out);
-  } else if (has_block && channel.Idle % reminder_slices == 0) {
-    repeat_acknowledge(channel);
+  } else if (has_block && channel.Flow.Idle % reminder_slices == 0) {
+    handle_silence(channel);
   }
 }
 
@@ -68,7 +68,7 @@ Abort learn_size(CO_SDO& channel, uint32_t position) {
   if (size < position) {
     return Abort::internal;
   }
-  channel.Size = size;
+  channel.Flow.Size = size;
   channel.Read = channel.Read < size ? channel.Read : size;
   return Abort::none;
 }
@@ -76,7 +76,7 @@ Abort learn_size(CO_SDO& channel, uint32_t position) {
 // Calls Read or Write; access::check() has checked that the type has the function.
 inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   CO_NODE& node = *channel.Node;
-  if (!has(channel, download)) {
+  if (!has(channel.Flow, download)) {
     return obj.Type->Read(&obj, &node, data, n);
   }
   const CO_ERR err = obj.Type->Write(&obj, &node, data, n);
@@ -92,7 +92,7 @@ Abort call_end(const CO_SDO& channel, CO_OBJ& obj, Abort code) {
   CO_NODE& node = *channel.Node;
   const access::Request request(node, &obj);
   const CO_ERR err = obj::end(obj, node, direction_of(channel), code);
-  const bool refused = err != CO_ERR_NONE && code == Abort::none && has(channel, download);
+  const bool refused = err != CO_ERR_NONE && code == Abort::none && has(channel.Flow, download);
   return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : Abort::none;
 }
 
@@ -118,7 +118,7 @@ void continue_transfer(CO_SDO& channel, CO_OBJ& obj, State state) {
   CO_NODE& node = *channel.Node;
   CO_ASSERT(state_of(channel) == State::idle && state != State::idle);
   channel.Obj = &obj;
-  channel.Num = 0;
+  channel.Flow.Num = 0;
   channel.Read = 0;
   set_state(channel, state);
   if (!has_time_out || tmr::is_running(node.SdoTmr)) {
@@ -161,7 +161,7 @@ Abort begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
   if (err != CO_ERR_NONE) {
     return access::abort_for(node, err);
   }
-  set(channel, begun);
+  set(channel.Flow, begun);
   channel.Obj = &obj;
   return Abort::none;
 }
@@ -169,14 +169,14 @@ Abort begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
 // Type functions access values in the byte order of the CPU; all other functions here use the byte order of the bus.
 Abort begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   const bool swaps = !wire::host_is_little_endian && !obj::is_stream(obj);
-  if (swaps && has(channel, download)) {
+  if (swaps && has(channel.Flow, download)) {
     wire::swap_host(data, n);
   }
   CO_ERR err = obj::is_stream(obj) ? obj::seek(obj, *channel.Node, 0) : CO_ERR_NONE;
   if (err == CO_ERR_NONE) {
     err = run(channel, obj, data, n);
   }
-  if (swaps && !has(channel, download)) {
+  if (swaps && !has(channel.Flow, download)) {
     wire::swap_host(data, n);
   }
   return err == CO_ERR_NONE ? Abort::none : access::report_failure(*channel.Node, direction_of(channel), err);
@@ -184,17 +184,17 @@ Abort begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
 
 Abort transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
   CO_ERR err = CO_ERR_NONE;
-  if (has(channel, whole)) {
+  if (has(channel.Flow, whole)) {
     CO_ASSERT(n <= sizeof channel.Value && position <= sizeof channel.Value - n);
     uint8_t* const value = channel.Value + position;
-    has(channel, download) ? wire::copy(value, data, n) : wire::copy(data, value, n);
+    has(channel.Flow, download) ? wire::copy(value, data, n) : wire::copy(data, value, n);
   } else if (n != 0) {
     if (channel.Obj == nullptr) {
       return Abort::device_state;
     }
     err = seek_piece(channel, *channel.Obj, position);
     if (has_block && err == CO_ERR_TYPE_AGAIN && state_of(channel) == State::block_upload) {
-      set(channel, behind);
+      set(channel.Flow, behind);
       return Abort::none;
     }
     if (may_end_itself && channel.Obj == nullptr) {
@@ -208,17 +208,17 @@ Abort transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t
   if (err != CO_ERR_NONE) {
     return access::report_failure(*channel.Node, direction_of(channel), err);
   }
-  const bool may_end = obj::is_unknown(channel.Size) && !has(channel, download);
+  const bool may_end = obj::is_unknown(channel.Flow.Size) && !has(channel.Flow, download);
   return may_end ? learn_size(channel, position) : Abort::none;
 }
 
-}  // namespace co::sdo_server
+}  // namespace co::sdo::server
 
 // The access hook of SDO transfers.
 
 #if USE_ACCESS_HOOK
 
-namespace co::sdo_server {
+namespace co::sdo::server {
 namespace {
 
 // Returns whether an initiate request is a block download; the command is one of the four initiate requests.
@@ -246,13 +246,13 @@ Abort ask_application(CO_SDO& channel, const CO_IF_FRM& request) {
   access.Index = static_cast<uint16_t>(CO_GET_IDX(channel.Key));
   access.Sub = static_cast<uint8_t>(CO_GET_SUB(channel.Key));
   access.Channel = static_cast<uint8_t>(&channel - node.Sdo);
-  if (has(channel, download)) {
+  if (has(channel.Flow, download)) {
     access.Direction = CO_OBJ_DOWNLOAD;
     describe_download(access, request);
   }
   return Abort{access_hook::ask<uint32_t, const CO_ACCESS_SDO>(node, &CO_CALLBACKS::AccessSdo, access)};
 }
 
-}  // namespace co::sdo_server
+}  // namespace co::sdo::server
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/part.hpp"
 
-namespace co::sdo_client {
+namespace co::sdo::client {
 
 // Reads the COB-IDs from the dictionary; no transfer may be in progress.
 void init(CO_NODE& node);
@@ -23,4 +23,8 @@ void configure(CO_NODE& node);
 
 inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).free(on_free).configure(configure);
 
-}  // namespace co::sdo_client
+}  // namespace co::sdo::client
+
+namespace co {
+namespace sdo_client = sdo::client;  // the name of the part
+}

@@ -4,7 +4,7 @@
 
 #include "base/part.hpp"
 
-namespace co::sdo_server {
+namespace co::sdo::server {
 
 // Ends all transfers and reads the COB-IDs from the dictionary.
 void init(CO_NODE& node);
@@ -23,4 +23,8 @@ void configure(CO_NODE& node);
 
 inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).free(on_free).configure(configure);
 
-}  // namespace co::sdo_server
+}  // namespace co::sdo::server
+
+namespace co {
+namespace sdo_server = sdo::server;  // the name of the part
+}

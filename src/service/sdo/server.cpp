@@ -12,7 +12,7 @@
 #include "service/sdo/server.hpp"
 #include "wire/cob_id.hpp"
 
-namespace co::sdo_server {
+namespace co::sdo::server {
 namespace {
 
 Abort end_by_client(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
@@ -67,7 +67,7 @@ bool is_segment(const CO_SDO& channel, const CO_IF_FRM& frame) {
   const State state = state_of(channel);
   return has_block && (state == State::block_download || state == State::block_download_end) &&
          frame.Data[0] != wire::abort_command &&
-         (state == State::block_download || is_last_segment_again(channel, frame));
+         (state == State::block_download || is_last_segment_again(channel.Flow, buffer_of(channel), frame));
 }
 
 // Runs a handler, and sends its answer or aborts the transfer.
@@ -88,10 +88,11 @@ inline void run_handler(CO_SDO& channel, Handler handler, const CO_IF_FRM& reque
 
 // Returns whether the invariants of a channel hold between frames. For assertions.
 [[maybe_unused]] bool is_consistent(const CO_SDO& channel) {
-  bool is_valid = channel.State != 0 || channel.Obj == nullptr;
+  bool is_valid = channel.Flow.State != 0 || channel.Obj == nullptr;
 #if USE_SDO_BLOCK
   constexpr uint8_t most = 127;
-  is_valid = is_valid && channel.Seq <= most && channel.AckSeq <= most && channel.Fill <= CO_SDO_BUF_BYTE;
+  is_valid =
+      is_valid && channel.Flow.Seq <= most && channel.Flow.AckSeq <= most && channel.Flow.Fill <= CO_SDO_BUF_BYTE;
 #endif
   return is_valid;
 }
@@ -115,7 +116,7 @@ inline void run_handler(CO_SDO& channel, Handler handler, const CO_IF_FRM& reque
     return true;
   }
   if (!in_block) {
-    channel.Idle = 0;
+    channel.Flow.Idle = 0;
   }
   const Request request = in_block ? Request::block_segment : wire::request_of(frame.Data[0]);
   run_handler(channel, state_machine(state_of(channel), request), frame, found);
@@ -130,8 +131,9 @@ inline void run_handler(CO_SDO& channel, Handler handler, const CO_IF_FRM& reque
   return cob_id == wire::cob_invalid ? wire::no_frame : wire::frame_id(cob_id);
 }
 
-void configure_channel(CO_NODE& node, uint16_t number) {
-  CO_SDO& channel = node.Sdo[number];
+[[gnu::noinline]] void configure_channel(CO_SDO& channel) {
+  CO_NODE& node = *channel.Node;
+  const auto number = static_cast<uint16_t>(CO_SSDO_N == 1 ? 0 : &channel - node.Sdo);
   uint32_t rx_id = identifier(node, number, 1, wire::CobId::sdo_rx);
   uint32_t tx_id = identifier(node, number, 2, wire::CobId::sdo_tx);
   if (rx_id == wire::no_frame || tx_id == wire::no_frame) {
@@ -166,8 +168,8 @@ void init(CO_NODE& node) {
 }
 
 void configure(CO_NODE& node) {
-  for (uint16_t number = 0; number < CO_SSDO_N; ++number) {
-    configure_channel(node, number);
+  for (CO_SDO& channel : node.Sdo) {
+    configure_channel(channel);
   }
 }
 
@@ -186,19 +188,25 @@ Abort send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
   return send_segments(channel);
 }
 
+// Not inlined, as process_frame().
+[[gnu::noinline]] bool continue_upload(CO_SDO& channel) {
+  if (state_of(channel) != State::block_upload) {
+    return false;
+  }
+  const uint8_t before = channel.Flow.Seq;
+  run_handler(channel, send_next, wire::empty_frame(wire::no_frame), nullptr);
+  if (channel.Flow.Seq == before) {
+    return false;
+  }
+  channel.Flow.Idle = 0;
+  return true;
+}
+
 }  // namespace
 
 bool on_free(CO_NODE& node, uint16_t number) {
   CO_ASSERT(number < CO_SSDO_N);
-  CO_SDO& channel = node.Sdo[number];
-  if (state_of(channel) != State::block_upload) {
-    return false;
-  }
-  const uint8_t before = channel.Seq;
-  run_handler(channel, send_next, wire::empty_frame(wire::no_frame), nullptr);
-  const bool sent = channel.Seq != before;
-  channel.Idle = sent ? 0 : channel.Idle;
-  return sent;
+  return continue_upload(node.Sdo[number]);
 }
 #else
 bool on_free(CO_NODE&, uint16_t) { return false; }
@@ -216,4 +224,4 @@ void on_mode(CO_NODE& node) {
   stop_idle_timer(node);
 }
 
-}  // namespace co::sdo_server
+}  // namespace co::sdo::server

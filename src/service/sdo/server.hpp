@@ -3,13 +3,12 @@
 #pragma once
 
 #include "co_assert.h"
-#include "dictionary/access.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/stream.hpp"
+#include "service/sdo/flow.hpp"
 #include "service/sdo/sdo_server.hpp"
-#include "wire/sdo.hpp"
 
-namespace co::sdo_server {
+namespace co::sdo::server {
 
 enum class State : uint8_t {
   idle,
@@ -23,31 +22,13 @@ enum class State : uint8_t {
   count
 };
 
-// CO_SDO.Flags
-enum Flag : uint8_t {
-  sized = 0x01,     // download: the client has announced the size
-  whole = 0x02,     // a value: collected in Value, read or written in one piece
-  too_long = 0x04,  // block download: more data than the object can hold
-  behind = 0x04,    // block upload: the type needs another call to reach the position
-  download = access::download,
-  toggled = 0x10,  // segmented transfer: toggle bit expected next, as in the frame
-  crc = 0x20,      // both sides support the CRC
-  begun = access::begun,
-  last_sent = 0x80,  // block upload: the last segment of the transfer was sent
-};
-
 inline constexpr bool has_block = USE_SDO_BLOCK != 0;
 
-inline State state_of(const CO_SDO& channel) { return static_cast<State>(channel.State); }
-inline void set_state(CO_SDO& channel, State state) { channel.State = static_cast<uint8_t>(state); }
-inline bool has(const CO_SDO& channel, Flag flag) { return (channel.Flags & flag) != 0; }
-inline void set(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint8_t>(channel.Flags | flag); }
-inline void clear(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint8_t>(channel.Flags & ~flag); }
+// Expedited data are stored in Value as a word.
+static_assert(offsetof(CO_SDO, Value) % sizeof(uint32_t) == 0);
 
-static_assert(toggled == wire::toggle_bit);
-
-// Suppresses the response. Setting the DLC again enables it.
-inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }
+inline State state_of(const CO_SDO& channel) { return static_cast<State>(channel.Flow.State); }
+inline void set_state(CO_SDO& channel, State state) { channel.Flow.State = static_cast<uint8_t>(state); }
 
 // Handlers of the state machine. They process a request, fill the response, and return an abort code.
 // [301:7.2.4.3] found: object of the request, if it was found before, otherwise null
@@ -83,7 +64,7 @@ void stop_idle_timer(CO_NODE& node);
   if (channel.Obj == nullptr) {
     return Abort::device_state;
   }
-  return wire::toggle(request) != (channel.Flags & toggled) ? Abort::toggle_bit : Abort::none;
+  return wire::toggle(request) != (channel.Flow.Flags & toggled) ? Abort::toggle_bit : Abort::none;
 }
 
 // Sends an abort to the client and closes the transfer.
@@ -95,7 +76,7 @@ void abort_transfer(CO_SDO& channel, Abort code);
 // Returns whether the object is transferred as a value, as a whole. Other objects are transferred in the pieces that
 // arrive.
 [[nodiscard]] inline bool is_value(const CO_SDO& channel, const CO_OBJ& obj) {
-  return !obj::is_stream(obj) && channel.Size <= sizeof channel.Value;
+  return !obj::is_stream(obj) && channel.Flow.Size <= sizeof channel.Value;
 }
 
 // Returns an abort code if the download cannot have this total length.
@@ -106,8 +87,8 @@ void abort_transfer(CO_SDO& channel, Abort code);
 // Sets Size to the total length before the last piece of n bytes is written, for extensions that need it (co_od.h). An
 // announced size is not changed; it is compared afterwards.
 inline void set_total([[maybe_unused]] CO_SDO& channel, [[maybe_unused]] uint32_t n) {
-  if (USE_OD != 0 && !has(channel, sized)) {
-    channel.Size = channel.Num + n;
+  if (USE_OD != 0 && !has(channel.Flow, sized)) {
+    channel.Flow.Size = channel.Flow.Num + n;
   }
 }
 
@@ -135,20 +116,13 @@ inline void set_total([[maybe_unused]] CO_SDO& channel, [[maybe_unused]] uint32_
   const uint8_t switch_threshold = request.Data[5];
   return switch_threshold == 0 || size > switch_threshold;
 }
-void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request);
-void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-
 // Sends segments of a block upload while there are any and transmit::offer() accepts them. Returns an abort code.
 [[nodiscard]] Abort send_segments(CO_SDO& channel);
 
-// Stores a segment of a block download, and restarts the time-out if the segment belongs to the transfer. Returns true
-// if it ends the block: end_block() then responds.
+// Stores a segment of a block download. Returns true if it ends the block: end_block() then responds.
 [[nodiscard]] bool store_in_block(CO_SDO& channel, const CO_IF_FRM& segment);
 
-// Block download: returns whether the frame repeats the last segment of the transfer.
-[[nodiscard]] bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame);
-
 // Block download: repeats the acknowledge to a client that no longer sends.
-void repeat_acknowledge(CO_SDO& channel);
+void handle_silence(CO_SDO& channel);
 
-}  // namespace co::sdo_server
+}  // namespace co::sdo::server
