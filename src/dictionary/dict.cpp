@@ -88,12 +88,6 @@ void set_power_on_values(CO_NODE& node, CO_NMT_RESET type) {
   }
 }
 
-// Uses first_from(), which is slower than find() and needs no prepared search: called only after find() has failed.
-bool has_index(const CO_DICT& dict, uint32_t key) {
-  const uint32_t position = first_from(dict.Root, dict.Num, CO_DEV(CO_GET_IDX(key), 0));
-  return position < dict.Num && CO_GET_IDX(dict.Root[position].Key) == CO_GET_IDX(key);
-}
-
 Initialised init_objects(CO_DICT& dict, CO_NODE& node) {
   Initialised result = {CO_ERR_NONE, 0};
   for (uint16_t n = 0; n < dict.Num; ++n) {

@@ -26,7 +26,7 @@ void prepare_search(CO_DICT& dict);
 // Sets the variables that the table's end mark lists (CO_DEFAULTS) to their default values.
 void set_power_on_values(CO_NODE_T& node, CO_NMT_RESET type);
 
-// Returns whether an entry has the index of key, with any sub-index.
+// Returns whether an entry has the index of key, which find() has just not found.
 [[nodiscard]] bool has_index(const CO_DICT& dict, uint32_t key);
 
 // Faults of the dictionary. One fault is recorded for CODictGetFault(): the first one, except that a fault that stops

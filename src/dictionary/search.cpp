@@ -76,11 +76,22 @@ CO_OBJ* find(CO_DICT& dict, uint32_t key) {
   if (!is_within(found->Key, bound)) {
     found = last_not_behind(dict, bound);
     if (!is_within(found->Key, bound)) {
+      dict.Next = found;  // for has_index()
       return nullptr;
     }
   }
   dict.Next = found == dict.Last ? dict.Root : found + 1;
   return found;
+}
+
+// An entry with the same index is beside the position at which find() has ended: before key, or behind it.
+bool has_index(const CO_DICT& dict, uint32_t key) {
+  const CO_OBJ* const before = dict.Next;
+  if (before == nullptr) {
+    return false;
+  }
+  const CO_OBJ* const behind = before == dict.Last ? before : before + 1;
+  return CO_GET_IDX(before->Key) == CO_GET_IDX(key) || CO_GET_IDX(behind->Key) == CO_GET_IDX(key);
 }
 
 }  // namespace co::dict
@@ -97,6 +108,11 @@ CO_OBJ* find(CO_DICT& dict, uint32_t key) {
   const uint32_t position = first_from(dict.Root, dict.Num, CO_GET_DEV(key));
   CO_OBJ* const found = &dict.Root[position];
   return position < dict.Num && CO_GET_DEV(found->Key) == CO_GET_DEV(key) ? found : nullptr;
+}
+
+bool has_index(const CO_DICT& dict, uint32_t key) {
+  const uint32_t position = first_from(dict.Root, dict.Num, CO_DEV(CO_GET_IDX(key), 0));
+  return position < dict.Num && CO_GET_IDX(dict.Root[position].Key) == CO_GET_IDX(key);
 }
 
 }  // namespace co::dict

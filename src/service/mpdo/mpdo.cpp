@@ -58,7 +58,7 @@ CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
 
 CO_ERR check_object(CO_NODE& node, Direction direction, CO_OBJ* obj, uint32_t key) {
   if (obj == nullptr || rules::is_static_type(key)) {
-    return dict::has_index(node.Dict, key) ? CO_ERR_OBJ_MAP_TYPE : CO_ERR_OBJ_NOT_FOUND;
+    return obj != nullptr || dict::has_index(node.Dict, key) ? CO_ERR_OBJ_MAP_TYPE : CO_ERR_OBJ_NOT_FOUND;
   }
   const uint32_t bytes = obj::size(*obj, node, 0);
   return bytes > wire::mpdo_data ? CO_ERR_OBJ_MAP_TYPE

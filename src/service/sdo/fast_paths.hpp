@@ -27,17 +27,22 @@ inline bool has_callbacks(const CO_NODE& node) {
 
 // Returns whether the request initiates an expedited transfer whose size is indicated, or any upload.
 inline bool initiates_number(uint8_t command) {
+  constexpr bool is_enabled = USE_FAST_PATHS != 0 && wire::host_is_little_endian;
   constexpr uint8_t length = 0x0C;
-  return command == wire::initiate_upload_request || (command & ~length) == wire::expedited_download_request(4);
+  return is_enabled &&
+         (command == wire::initiate_upload_request || (command & ~length) == wire::expedited_download_request(4));
 }
 
-// Returns the object of a request that may initiate the transfer of a number, otherwise null. No transfer is open.
-inline CO_OBJ* find_number(const CO_SDO& channel, const CO_IF_FRM& request) {
-  const bool is_enabled = USE_FAST_PATHS != 0 && wire::host_is_little_endian;
-  if (!is_enabled || !initiates_number(request.Data[0])) {
-    return nullptr;
+// Returns the object of a request that may initiate the transfer of a number; null if there is none: the request is
+// aborted. No transfer is open.
+inline CO_OBJ* find_number(CO_SDO& channel, const CO_IF_FRM& request) {
+  const uint32_t key = wire::multiplexer(request);
+  CO_OBJ* const obj = dict::find(*channel.Node, key);
+  if (obj == nullptr) {
+    channel.Key = key;
+    abort_transfer(channel, access::check(*channel.Node, key, nullptr, CO_OBJ_UPLOAD));
   }
-  return dict::find(*channel.Node, wire::multiplexer(request));
+  return obj;
 }
 
 // Answers a request that find_number() has found an object for. Returns false if the state machine of the server

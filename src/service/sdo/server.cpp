@@ -104,9 +104,11 @@ inline void run_handler(CO_SDO& channel, Handler handler, const CO_IF_FRM& reque
   }
   CO_OBJ* found = nullptr;
   if (state_of(channel) == State::idle) {
-    found = find_number(channel, frame);
-    if (found != nullptr && answer_number(channel, frame, *found)) {
-      return true;
+    if (initiates_number(frame.Data[0])) {
+      found = find_number(channel, frame);
+      if (found == nullptr || answer_number(channel, frame, *found)) {
+        return true;
+      }
     }
   } else if (USE_FAST_PATHS != 0 && answer_segment(channel, frame)) {
     return true;
