@@ -10,21 +10,29 @@ namespace co::transmit {
 
 void init(CO_NODE& node);
 
+// Bits of send_as(): how a frame is queued that the controller does not accept at once.
+inline constexpr unsigned replaces = 1;  // replaces a queued frame of the same identifier, except the boot-up message
+inline constexpr unsigned of_application = 2;  // leaves some elements of the queue for the node's own frames
+inline constexpr unsigned ahead = 4;           // follows the fixed frames only; in a full queue the last frame is lost
+
 // Sends a frame, or queues it. Returns false if the queue is full: the frame is lost and counted.
+bool send_as(CO_NODE& node, const CO_IF_FRM& frame, unsigned manner);
+
+// Sends a frame of the node.
 bool send(CO_NODE& node, const CO_IF_FRM& frame);
 
-// Like send(), for a frame of the application: reserves some elements of the queue for the node's own frames.
-bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame);
+inline bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame) { return send_as(node, frame, of_application); }
 
-// Like send_for_application(), for a PDO: replaces an older frame of the PDO that is still queued.
-bool send_process_data(CO_NODE& node, const CO_IF_FRM& frame);
+// Sends a PDO.
+inline bool send_process_data(CO_NODE& node, const CO_IF_FRM& frame) {
+  return send_as(node, frame, replaces | of_application);
+}
 
 // Sends the boot-up message or an LSS frame: in Initialisation, these are sent before all other frames.
-void send_ahead(CO_NODE& node, const CO_IF_FRM& frame);
+inline void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) { send_as(node, frame, ahead); }
 
-// Sends a frame that reports a state repeatedly: replaces a queued frame of the same identifier, except the boot-up
-// message.
-void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
+// Sends a frame that reports a state repeatedly.
+inline bool send_latest(CO_NODE& node, const CO_IF_FRM& frame) { return send_as(node, frame, replaces); }
 
 // Offers the queued frames to the driver, then returns the frame of an identifier that is still queued; null if there
 // is none, or it is the boot-up message.
@@ -47,17 +55,17 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 [[nodiscard]] bool is_queued(const CO_NODE& node, uint32_t identifier);
 [[nodiscard]] bool has_room_for_application(const CO_NODE& node);
 
-// Keeps only the queued responses of SDO servers and NMT commands, and counts the other frames as dropped. The kept
-// ones are sent before all frames that are queued later, the boot-up message included. In Initialisation keeps all.
-void keep_responses(CO_NODE& node);
-// Drops the frames that were queued since, and counts them as dropped.
-void drop_behind_responses(CO_NODE& node);
-
-// Drops all queued frames, and counts them as dropped.
-void clear(CO_NODE& node);
-
-// Like clear(), for the frames of one identifier that must not be sent any more.
+// Drops the queued frames of an identifier that must not be sent any more, except fixed ones, and counts them as
+// dropped.
 void withdraw(CO_NODE& node, uint32_t identifier);
+
+// For withdraw(): the frames of all identifiers.
+inline constexpr uint32_t all_frames = UINT32_MAX - 1;
+
+// Drops all queued frames, and counts them as dropped. keeps_responses: except responses of SDO servers and NMT
+// commands, which become fixed: they are sent before all frames that are queued later, the boot-up message included; in
+// Initialisation all are kept.
+void clear(CO_NODE& node, bool keeps_responses);
 
 [[nodiscard]] inline bool is_waiting(const CO_NODE& node) { return node.TxQueue.Num != 0; }
 

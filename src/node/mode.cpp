@@ -82,7 +82,7 @@ void enter(CO_NODE& node, CO_MODE mode) {
   node.Nmt.Allowed = permissions[mode];
   parts::run<&Part::of_mode>(node);
   if (mode == CO_INVALID) {
-    transmit::clear(node);
+    transmit::clear(node, false);
     node.Transmit.Paused = 0;
     node.Pending = 0;
     node.Transmit.Off = 0;
@@ -115,14 +115,14 @@ void start(CO_NODE& node) {
 void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
   const bool was_initialising = node.Nmt.Mode == CO_INIT;
   const bool waits_for_start = was_initialising && !parts::ask<&Part::of_is_waiting>(false, node);
-  commanded ? transmit::clear(node) : transmit::keep_responses(node);
+  transmit::clear(node, !commanded);
   event::request_mode(node, CO_INIT);
   event::enter_requested_mode(node);
   if (node.Nmt.Mode != CO_INIT) {
     return;
   }
   if (!was_initialising) {
-    transmit::drop_behind_responses(node);  // messages of the last state
+    transmit::withdraw(node, transmit::all_frames);  // messages of the last state
   }
   port::can_reset(node);
   parts::run<&Part::of_reset>(node);
