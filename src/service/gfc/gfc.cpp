@@ -28,9 +28,7 @@ CO_ERR send(CO_NODE& node) {
   if (!is_used(node)) {
     return CO_ERR_OBJ_STATE;
   }
-  const bool is_queued = transmit::is_waiting(node) && transmit::find_waiting(node, identifier) != nullptr;
-  const bool sent = is_queued || transmit::send(node, wire::empty_frame(identifier, 0));
-  return sent ? CO_ERR_NONE : CO_ERR_IF_CAN_SEND;
+  return transmit::send_latest(node, wire::empty_frame(identifier, 0)) ? CO_ERR_NONE : CO_ERR_IF_CAN_SEND;
 }
 
 CO_ERR may_use(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t before) {

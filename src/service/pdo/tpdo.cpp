@@ -248,11 +248,7 @@ void begin(CO_TPDO& pdo) {
 }
 
 void withdraw_synchronous(CO_NODE& node) {
-  bits::for_each(node.PdoSets.Sync, [&](unsigned n) {
-    if (transmit::is_waiting(node)) {
-      transmit::withdraw(node, node.TPdo[n].Identifier);
-    }
-  });
+  bits::for_each(node.PdoSets.Sync, [&](unsigned n) { transmit::withdraw(node, node.TPdo[n].Identifier); });
 }
 
 }  // namespace
