@@ -128,9 +128,11 @@ bool send_as(CO_NODE& node, const CO_IF_FRM& frame, unsigned manner) {
       *waiting = frame;
       return true;
     }
+    if ((is_ahead != 0 ? node.TxQueue.Fixed : node.TxQueue.Num) != 0) {
+      return enqueue(node, frame, manner);
+    }
   }
-  const unsigned before = is_ahead != 0 ? node.TxQueue.Fixed : node.TxQueue.Num;
-  return (before == 0 && offer_to_driver(node, frame, is_ahead)) || enqueue(node, frame, manner);
+  return offer_to_driver(node, frame, is_ahead) || enqueue(node, frame, manner);
 }
 
 CO_IF_FRM* find_waiting(CO_NODE& node, uint32_t identifier) {
