@@ -21,8 +21,6 @@ void error::report(CO_NODE& node, CO_ERR err, uint32_t key) {
 
 }  // namespace co
 
-using namespace co;
-
 extern "C" {
 
 CO_ERR CONodeGetErr(CO_NODE* node) {

@@ -5,6 +5,7 @@
 
 #include "co_assert.h"
 
+namespace co::ring {
 namespace {
 
 uint16_t load(const uint16_t& position) { return __atomic_load_n(&position, __ATOMIC_ACQUIRE); }
@@ -25,6 +26,7 @@ CO_IF_FRM& frame_at(const CO_RING& ring, uint16_t position) {
 }
 
 }  // namespace
+}  // namespace co::ring
 
 extern "C" {
 
@@ -41,36 +43,39 @@ bool CORingPut(CO_RING* ring, const CO_IF_FRM* frm) {
   if (ring == nullptr || frm == nullptr) {
     return false;
   }
-  if (used(*ring, ring->Head, load(ring->Tail)) == ring->Size) {
+  if (co::ring::used(*ring, ring->Head, co::ring::load(ring->Tail)) == ring->Size) {
     if (ring->Lost != UINT16_MAX) {
-      store(ring->Lost, static_cast<uint16_t>(ring->Lost + 1));
+      co::ring::store(ring->Lost, static_cast<uint16_t>(ring->Lost + 1));
     }
     return false;
   }
-  frame_at(*ring, ring->Head) = *frm;
-  store(ring->Head, next(*ring, ring->Head));
+  co::ring::frame_at(*ring, ring->Head) = *frm;
+  co::ring::store(ring->Head, co::ring::next(*ring, ring->Head));
   return true;
 }
 
 bool CORingGet(CO_RING* ring, CO_IF_FRM* frm) {
-  if (ring == nullptr || frm == nullptr || load(ring->Head) == ring->Tail) {
+  if (ring == nullptr || frm == nullptr || co::ring::load(ring->Head) == ring->Tail) {
     return false;
   }
-  *frm = frame_at(*ring, ring->Tail);
-  store(ring->Tail, next(*ring, ring->Tail));
+  *frm = co::ring::frame_at(*ring, ring->Tail);
+  co::ring::store(ring->Tail, co::ring::next(*ring, ring->Tail));
   return true;
 }
 
 void CORingClear(CO_RING* ring) {
   if (ring != nullptr) {
-    store(ring->Tail, load(ring->Head));
+    co::ring::store(ring->Tail, co::ring::load(ring->Head));
   }
 }
 
 uint16_t CORingCount(const CO_RING* ring) {
-  return ring == nullptr ? static_cast<uint16_t>(0) : used(*ring, load(ring->Head), load(ring->Tail));
+  return ring == nullptr ? static_cast<uint16_t>(0)
+                         : co::ring::used(*ring, co::ring::load(ring->Head), co::ring::load(ring->Tail));
 }
 
-uint16_t CORingLost(const CO_RING* ring) { return ring == nullptr ? static_cast<uint16_t>(0) : load(ring->Lost); }
+uint16_t CORingLost(const CO_RING* ring) {
+  return ring == nullptr ? static_cast<uint16_t>(0) : co::ring::load(ring->Lost);
+}
 
 }  // extern "C"

@@ -450,8 +450,6 @@ void run_due(CO_TMR& timers) {
 
 }  // namespace co::tmr
 
-using namespace co;
-
 extern "C" {
 
 void COTmrInit(CO_TMR* tmr, CO_NODE* node, CO_TMR_MEM* mem, uint16_t num, uint32_t freq) {
@@ -464,13 +462,13 @@ void COTmrInit(CO_TMR* tmr, CO_NODE* node, CO_TMR_MEM* mem, uint16_t num, uint32
   tmr->Freq = freq;
   const unsigned max = mem == nullptr ? 0U : (num > INT16_MAX ? INT16_MAX : num);
   tmr->Max = static_cast<uint16_t>(max);
-  tmr->IdStep = tmr::power_of_two(max);
-  tmr->Clock = port::is_initialised(*node) ? port::now(*node) : 0;
+  tmr->IdStep = co::tmr::power_of_two(max);
+  tmr->Clock = co::port::is_initialised(*node) ? co::port::now(*node) : 0;
 }
 
 uint32_t COTmrGetTicks(CO_TMR* tmr, uint16_t time, uint32_t unit) {
   ASSERT_PTR_ERR(tmr, 0);
-  return tmr::ticks_at(tmr->Freq, time, unit);
+  return co::tmr::ticks_at(tmr->Freq, time, unit);
 }
 
 uint16_t COTmrGetMinTime(CO_TMR* tmr, uint32_t unit) {
@@ -486,46 +484,46 @@ int16_t COTmrCreate(CO_TMR* tmr, uint32_t startTicks, uint32_t cycleTicks, CO_TM
   ASSERT_PTR_FATAL_ERR(tmr, -1);
   ASSERT_PTR_FATAL_ERR(tmr->Node, -1);
   if (func == nullptr) {
-    error::report(*tmr->Node, CO_ERR_BAD_ARG);
+    co::error::report(*tmr->Node, CO_ERR_BAD_ARG);
     return -1;
   }
-  if ((startTicks == 0 && cycleTicks == 0) || !port::is_initialised(*tmr->Node)) {
+  if ((startTicks == 0 && cycleTicks == 0) || !co::port::is_initialised(*tmr->Node)) {
     return -1;
   }
-  const tmr::Lock lock(*tmr);
-  CO_TMR_MEM* const timer = tmr::take_free(*tmr);
+  const co::tmr::Lock lock(*tmr);
+  CO_TMR_MEM* const timer = co::tmr::take_free(*tmr);
   if (timer == nullptr) {
-    count(tmr->Node->Count.TimerExhausted);
-    error::report(*tmr->Node, CO_ERR_TMR_NO_ACT);
+    co::count(tmr->Node->Count.TimerExhausted);
+    co::error::report(*tmr->Node, CO_ERR_TMR_NO_ACT);
     return -1;
   }
-  tmr::arm(*tmr, *timer, startTicks, cycleTicks, func, para);
+  co::tmr::arm(*tmr, *timer, startTicks, cycleTicks, func, para);
   return static_cast<int16_t>(timer->Id);
 }
 
 int16_t COTmrDelete(CO_TMR* tmr, int16_t actId) {
   ASSERT_PTR_FATAL_ERR(tmr, -1);
   ASSERT_PTR_FATAL_ERR(tmr->Node, -1);
-  if (!port::is_initialised(*tmr->Node)) {
+  if (!co::port::is_initialised(*tmr->Node)) {
     return -1;
   }
-  const tmr::Lock lock(*tmr);
-  CO_TMR_MEM* const timer = tmr::find(*tmr, actId);
+  const co::tmr::Lock lock(*tmr);
+  CO_TMR_MEM* const timer = co::tmr::find(*tmr, actId);
   if (timer == nullptr) {
     return -1;
   }
-  tmr::remove(*tmr, *timer);
-  tmr::release(*tmr, *timer);
+  co::tmr::remove(*tmr, *timer);
+  co::tmr::release(*tmr, *timer);
   return 0;
 }
 
 int16_t COTmrService(CO_TMR* tmr) {
   ASSERT_PTR_ERR(tmr, -1);
   ASSERT_PTR_ERR(tmr->Node, -1);
-  if (port::is_initialised(*tmr->Node) && port::has_elapsed(*tmr->Node)) {
-    tmr::process_clock(*tmr);
+  if (co::port::is_initialised(*tmr->Node) && co::port::has_elapsed(*tmr->Node)) {
+    co::tmr::process_clock(*tmr);
   }
-  return tmr::has_due(*tmr) || tmr::has_to_send(*tmr->Node) ? 1 : 0;
+  return co::tmr::has_due(*tmr) || co::tmr::has_to_send(*tmr->Node) ? 1 : 0;
 }
 
 }  // extern "C"

@@ -128,15 +128,13 @@ CO_ERR write_u32(CO_NODE_T& node, uint32_t key, uint32_t value) {
 
 }  // namespace co::dict
 
-using namespace co;
-
 extern "C" {
 
 CO_ERR CODictObjInit(CO_DICT* cod, CO_NODE_T* node) {
   if (cod == nullptr || node == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  return dict::init_objects(*cod, *node).err;
+  return co::dict::init_objects(*cod, *node).err;
 }
 
 CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key) {
@@ -144,10 +142,10 @@ CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key) {
     return CO_DICT_OK;
   }
 #if USE_DICT_CHECK
-  const uint32_t key_of_fault = dict::fault_key_of(*cod);
-  const CO_DICT_FAULT fault = dict::fault_of(*cod);
+  const uint32_t key_of_fault = co::dict::fault_key_of(*cod);
+  const CO_DICT_FAULT fault = co::dict::fault_of(*cod);
 #else
-  const uint32_t key_of_fault = dict::out_of_order(*cod);
+  const uint32_t key_of_fault = co::dict::out_of_order(*cod);
   const CO_DICT_FAULT fault = key_of_fault != 0 ? CO_DICT_NOT_ASCENDING : CO_DICT_OK;
 #endif
   if (key != nullptr) {
@@ -157,34 +155,34 @@ CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key) {
 }
 
 CO_ERR CODictRdByte(CO_DICT* cod, uint32_t key, uint8_t* val) {
-  return dict::access_value(cod, key, val, sizeof *val, obj::read);
+  return co::dict::access_value(cod, key, val, sizeof *val, co::obj::read);
 }
 
 CO_ERR CODictRdWord(CO_DICT* cod, uint32_t key, uint16_t* val) {
-  return dict::access_value(cod, key, val, sizeof *val, obj::read);
+  return co::dict::access_value(cod, key, val, sizeof *val, co::obj::read);
 }
 
 CO_ERR CODictRdLong(CO_DICT* cod, uint32_t key, uint32_t* val) {
-  return dict::access_value(cod, key, val, sizeof *val, obj::read);
+  return co::dict::access_value(cod, key, val, sizeof *val, co::obj::read);
 }
 
 CO_ERR CODictWrByte(CO_DICT* cod, uint32_t key, uint8_t val) {
-  return dict::access_value(cod, key, &val, sizeof val, obj::write_for_application);
+  return co::dict::access_value(cod, key, &val, sizeof val, co::obj::write_for_application);
 }
 
 CO_ERR CODictWrWord(CO_DICT* cod, uint32_t key, uint16_t val) {
-  return dict::access_value(cod, key, &val, sizeof val, obj::write_for_application);
+  return co::dict::access_value(cod, key, &val, sizeof val, co::obj::write_for_application);
 }
 
 CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val) {
-  return dict::access_value(cod, key, &val, sizeof val, obj::write_for_application);
+  return co::dict::access_value(cod, key, &val, sizeof val, co::obj::write_for_application);
 }
 
 CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len) {
   if (cod == nullptr || buf == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  CO_OBJ* const found = dict::find(*cod, key);
+  CO_OBJ* const found = co::dict::find(*cod, key);
   return found == nullptr ? CO_ERR_OBJ_NOT_FOUND : COObjRdBufStart(found, cod->Node, buf, len);
 }
 
@@ -192,7 +190,7 @@ CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len) {
   if (cod == nullptr || buf == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  CO_OBJ* const found = dict::find(*cod, key);
+  CO_OBJ* const found = co::dict::find(*cod, key);
   return found == nullptr ? CO_ERR_OBJ_NOT_FOUND : COObjWrBufStart(found, cod->Node, buf, len);
 }
 

@@ -23,8 +23,7 @@ CO_ERR end(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, Abort abort) 
 
 }  // namespace co::obj
 
-using namespace co;
-
+namespace co::obj {
 namespace {
 
 // Returns whether an API function can access the object: it has a type, and no argument is null.
@@ -33,19 +32,20 @@ bool is_accessible(const CO_OBJ* obj, const CO_NODE_T* node) {
 }
 
 }  // namespace
+}  // namespace co::obj
 
 extern "C" {
 
 uint32_t COObjGetSize(CO_OBJ* obj, CO_NODE_T* node, uint32_t width) {
-  if (!is_accessible(obj, node)) {
+  if (!co::obj::is_accessible(obj, node)) {
     return 0;
   }
-  const event::Call call(*node);
-  return obj::size(*obj, *node, width);
+  const co::event::Call call(*node);
+  return co::obj::size(*obj, *node, width);
 }
 
 CO_ERR COObjInit(CO_OBJ* obj, CO_NODE_T* node) {
-  if (!is_accessible(obj, node)) {
+  if (!co::obj::is_accessible(obj, node)) {
     return CO_ERR_BAD_ARG;
   }
   return obj->Type->Init == nullptr ? CO_ERR_NONE : obj->Type->Init(obj, node);
@@ -53,36 +53,36 @@ CO_ERR COObjInit(CO_OBJ* obj, CO_NODE_T* node) {
 
 #if USE_OBJ_EX
 CO_ERR COObjTypeExReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
-  if (!is_accessible(obj, node)) {
+  if (!co::obj::is_accessible(obj, node)) {
     return CO_ERR_BAD_ARG;
   }
-  const CO_OBJ_TYPE_EX* const type = obj::extended(*obj);
+  const CO_OBJ_TYPE_EX* const type = co::obj::extended(*obj);
   return type == nullptr || type->Reset == nullptr ? CO_ERR_NONE : type->Reset(obj, node, para);
 }
 #endif
 
 CO_ERR COObjReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
-  if (!is_accessible(obj, node)) {
+  if (!co::obj::is_accessible(obj, node)) {
     return CO_ERR_BAD_ARG;
   }
-  const event::Call call(*node);
-  return obj::seek(*obj, *node, para);
+  const co::event::Call call(*node);
+  return co::obj::seek(*obj, *node, para);
 }
 
 CO_ERR COObjRdBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
-  if (!is_accessible(obj, node) || buffer == nullptr) {
+  if (!co::obj::is_accessible(obj, node) || buffer == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  const event::Call call(*node);
-  return obj::read(*obj, *node, buffer, size);
+  const co::event::Call call(*node);
+  return co::obj::read(*obj, *node, buffer, size);
 }
 
 CO_ERR COObjWrBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
-  if (!is_accessible(obj, node) || buffer == nullptr) {
+  if (!co::obj::is_accessible(obj, node) || buffer == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  const event::Call call(*node);
-  return obj::write_for_application(*obj, *node, buffer, size);
+  const co::event::Call call(*node);
+  return co::obj::write_for_application(*obj, *node, buffer, size);
 }
 
 CO_ERR COObjRdValue(CO_OBJ* obj, CO_NODE_T* node, void* value, uint8_t width) {

@@ -56,8 +56,7 @@ void CO_VerInit(void) {}
 
 // Initialisation of nodes that may have classic drivers. Only programs that call these functions link the adapters.
 
-using namespace co;
-
+namespace co::node {
 namespace {
 
 // Adds the adapters for classic drivers, and the format of groups in a memory without Shape.
@@ -78,13 +77,14 @@ constexpr CO_NODE_EXT empty_extension() {
 constexpr CO_NODE_EXT no_extension = empty_extension();
 
 }  // namespace
+}  // namespace co::node
 
 extern "C" {
 
 void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) { CONodeInitEx(node, spec, nullptr); }
 
 void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) {
-  node::init(node, spec, ext == nullptr ? &no_extension : ext, add);
+  co::node::init(node, spec, ext == nullptr ? &co::node::no_extension : ext, co::node::add);
 }
 
 // The symbols of both functions contain this library's configuration (lexican/detail/configuration.h); programs that

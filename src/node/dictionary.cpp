@@ -8,8 +8,7 @@
 #include "dictionary/lock.hpp"
 #include "node/parts.hpp"
 
-using namespace co;
-
+namespace co::node {
 namespace {
 
 // Reads parameters from the dictionary again and finds the mapped objects of PDOs, SRDOs and recorders in it.
@@ -22,21 +21,22 @@ void remap(CO_NODE& node) {
 }
 
 }  // namespace
+}  // namespace co::node
 
 extern "C" int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   if (cod == nullptr || node == nullptr || root == nullptr || max == 0) {
     return -1;
   }
-  if (event::is_working(*node)) {
-    error::report(*node, CO_ERR_DICT_BUSY);
+  if (co::event::is_working(*node)) {
+    co::error::report(*node, CO_ERR_DICT_BUSY);
     return -1;
   }
-  const event::Call call(*node);
-  const CO_ERR err = dict::set_table(*cod, *node, root, max);
-  parts::run<&Part::of_table>(*node);
-  access::close_moved(*node);  // SDO transfers whose entry is no longer at the same address
-  if ((node->State & event::running) != 0) {
-    remap(*node);
+  const co::event::Call call(*node);
+  const CO_ERR err = co::dict::set_table(*cod, *node, root, max);
+  co::parts::run<&co::Part::of_table>(*node);
+  co::access::close_moved(*node);  // SDO transfers whose entry is no longer at the same address
+  if ((node->State & co::event::running) != 0) {
+    co::node::remap(*node);
   }
   if (err != CO_ERR_NONE) {
     return -1;

@@ -166,12 +166,10 @@ void init(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext, AddDr
 
 }  // namespace co::node
 
-using namespace co;
-
 extern "C" {
 
 void CONodeInitCtx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) {
-  node::init(node, spec, ext, nullptr);
+  co::node::init(node, spec, ext, nullptr);
 }
 
 // The symbol contains this library's configuration (lexican/detail/configuration.h); programs that declare the function

@@ -95,87 +95,85 @@ void report(CO_NODE& node, CO_CAN_EVENT event) {
 
 }  // namespace co::node
 
-using namespace co;
-
 extern "C" {
 
 void CONodeProcess(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  const port::NodeLock lock(*node);
+  const co::port::NodeLock lock(*node);
   if constexpr (USE_REAL_TIME != 0) {
-    node::run_deferred_of_mainline(*node);
+    co::node::run_deferred_of_mainline(*node);
   }
-  if (node->State != event::running) {
-    node::drop_received(*node);
+  if (node->State != co::event::running) {
+    co::node::drop_received(*node);
     return;
   }
-  if (node::waits_to_send(*node)) {
-    node::resume_sending_between_frames(*node);
+  if (co::node::waits_to_send(*node)) {
+    co::node::resume_sending_between_frames(*node);
     if constexpr (USE_REAL_TIME != 0) {
-      node::run_deferred_of_mainline(*node);
+      co::node::run_deferred_of_mainline(*node);
     }
-    if (node->State != event::running) {
+    if (node->State != co::event::running) {
       return;
     }
   } else {
     node->Transmit.Burst = 0;  // the limit of offer() begins anew
   }
-  CO_IF_FRM frame = wire::empty_frame();
-  if (!node::receive(*node, frame)) {
+  CO_IF_FRM frame = co::wire::empty_frame();
+  if (!co::node::receive(*node, frame)) {
     return;
   }
-  node->State |= event::working;
-  node::dispatch(*node, frame);
-  node->State &= static_cast<uint8_t>(~event::working);
-  node::run_deferred_of_mainline(*node);
+  node->State |= co::event::working;
+  co::node::dispatch(*node, frame);
+  node->State &= static_cast<uint8_t>(~co::event::working);
+  co::node::run_deferred_of_mainline(*node);
 }
 
 void COTmrProcess(CO_TMR* tmr) {
   ASSERT_PTR_FATAL(tmr);
   ASSERT_PTR_FATAL(tmr->Node);
-  if (tmr::run_locked(*tmr, node::resume_sending_between_frames)) {
+  if (co::tmr::run_locked(*tmr, co::node::resume_sending_between_frames)) {
     return;
   }
   CO_NODE& node = *tmr->Node;
   // Like waits_to_send(), without a branch; resume_sending_between_frames() tests again.
   const bool waits = USE_FAST_PATHS == 0 || (node.TxQueue.Num | node.Transmit.Paused) != 0;
   if (waits) {
-    node::resume_sending_between_frames(node);
+    co::node::resume_sending_between_frames(node);
   }
-  if (!tmr::has_due(*tmr) || event::is_working(node)) {
+  if (!co::tmr::has_due(*tmr) || co::event::is_working(node)) {
     return;
   }
-  if (!waits && node.State == event::running) {
+  if (!waits && node.State == co::event::running) {
     node.Transmit.Burst = 0;  // the limit of offer() begins anew
   }
-  tmr::run_due(*tmr);
+  co::tmr::run_due(*tmr);
 }
 
 uint32_t CONodeNextDeadline(CO_NODE* node) {
   ASSERT_PTR_FATAL_ERR(node, UINT32_MAX);
-  const port::NodeLock lock(*node);
-  if (!port::is_initialised(*node)) {
+  const co::port::NodeLock lock(*node);
+  if (!co::port::is_initialised(*node)) {
     return UINT32_MAX;
   }
-  if (node::is_awaited(*node)) {
+  if (co::node::is_awaited(*node)) {
     return 0;
   }
-  const uint32_t timers = tmr::next_deadline(*node);
-  if (!node::waits_to_send(*node)) {
+  const uint32_t timers = co::tmr::next_deadline(*node);
+  if (!co::node::waits_to_send(*node)) {
     return timers;
   }
-  if (transmit::is_paced(*node)) {
+  if (co::transmit::is_paced(*node)) {
     return 0;
   }
-  const uint32_t retry = tmr::ticks(*node, 1, CO_TMR_UNIT_1MS);
+  const uint32_t retry = co::tmr::ticks(*node, 1, CO_TMR_UNIT_1MS);
   return retry < timers ? retry : timers;
 }
 
 void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event) {
   ASSERT_PTR_FATAL(node);
-  if (event < CO_CAN_EVENT_NUM && port::is_initialised(*node)) {
-    const event::Call call(*node);
-    node::report(*node, event);
+  if (event < CO_CAN_EVENT_NUM && co::port::is_initialised(*node)) {
+    const co::event::Call call(*node);
+    co::node::report(*node, event);
   }
 }
 
@@ -187,7 +185,7 @@ void CONodeCanReport(void*, CO_NODE* node, const CO_IF_FRM* frm) {
     return;
   }
   for (uint8_t event = 0; event < CO_CAN_EVENT_NUM; ++event) {
-    if (wire::reports(*frm, static_cast<CO_CAN_EVENT>(event))) {
+    if (co::wire::reports(*frm, static_cast<CO_CAN_EVENT>(event))) {
       CONodeCanEvent(node, static_cast<CO_CAN_EVENT>(event));
     }
   }

@@ -204,57 +204,55 @@ void event::request_mode(CO_NODE& node, CO_MODE requested) {
 
 }  // namespace co
 
-using namespace co;
-
 extern "C" {
 
 void CONodeStart(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  if (node->Nmt.Mode == CO_INIT && node->Nmt.Next == CO_INIT && !event::is_working(*node)) {
-    nmt::start(*node);
+  if (node->Nmt.Mode == CO_INIT && node->Nmt.Next == CO_INIT && !co::event::is_working(*node)) {
+    co::nmt::start(*node);
   }
-  event::run_deferred(*node);
+  co::event::run_deferred(*node);
 }
 
 void CONodeStop(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  event::request_mode(*node, CO_INVALID);
-  event::run_deferred(*node);
+  co::event::request_mode(*node, CO_INVALID);
+  co::event::run_deferred(*node);
 }
 
 void CONmtReset(CO_NMT* nmt, CO_NMT_RESET type) {
   ASSERT_PTR_FATAL(nmt);
   ASSERT_PTR_FATAL(nmt->Node);
   if (type == CO_RESET_NODE) {
-    event::defer(*nmt->Node, event::reset_node);
+    co::event::defer(*nmt->Node, co::event::reset_node);
   } else if (type == CO_RESET_COM) {
-    event::defer(*nmt->Node, event::reset_communication);
+    co::event::defer(*nmt->Node, co::event::reset_communication);
   }
-  event::run_deferred(*nmt->Node);
+  co::event::run_deferred(*nmt->Node);
 }
 
 void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   ASSERT_PTR_FATAL(nmt);
   ASSERT_PTR_FATAL(nmt->Node);
   CO_NODE& node = *nmt->Node;
-  const bool initialising = nmt->Next == CO_INIT && event::is_working(node);
-  const bool unconfigured = !wire::is_node_id(node.NodeId);
+  const bool initialising = nmt->Next == CO_INIT && co::event::is_working(node);
+  const bool unconfigured = !co::wire::is_node_id(node.NodeId);
   const bool stopped = nmt->Mode == CO_INVALID || nmt->Next == CO_INVALID;
   if (stopped || initialising || unconfigured || mode < CO_PREOP || mode >= CO_MODE_NUM) {
-    error::report(node, CO_ERR_NMT_MODE);
+    co::error::report(node, CO_ERR_NMT_MODE);
     return;
   }
   if (nmt->Mode == CO_INIT && nmt->Next == CO_INIT) {
-    nmt::boot(node);
-    event::run_deferred(node);
+    co::nmt::boot(node);
+    co::event::run_deferred(node);
   }
-  event::request_mode(node, mode);
-  event::run_deferred(node);
+  co::event::request_mode(node, mode);
+  co::event::run_deferred(node);
 }
 
 CO_MODE CONmtGetMode(CO_NMT* nmt) {
   ASSERT_PTR_FATAL_ERR(nmt, CO_INVALID);
-  const bool is_requested = nmt->Node != nullptr && (nmt->Node->Pending & event::mode) != 0;
+  const bool is_requested = nmt->Node != nullptr && (nmt->Node->Pending & co::event::mode) != 0;
   return is_requested ? nmt->Next : nmt->Mode;
 }
 
@@ -262,11 +260,11 @@ void CONmtSetNodeId(CO_NMT* nmt, uint8_t nodeId) {
   ASSERT_PTR_FATAL(nmt);
   ASSERT_PTR_FATAL(nmt->Node);
   if (nmt->Mode != CO_INIT) {
-    error::report(*nmt->Node, CO_ERR_NMT_MODE);
+    co::error::report(*nmt->Node, CO_ERR_NMT_MODE);
   } else if (nodeId < 1 || nodeId > 127) {
-    error::report(*nmt->Node, CO_ERR_BAD_ARG);
+    co::error::report(*nmt->Node, CO_ERR_BAD_ARG);
   } else {
-    event::change_node_id(*nmt->Node, nodeId);
+    co::event::change_node_id(*nmt->Node, nodeId);
   }
 }
 
@@ -278,17 +276,18 @@ uint8_t CONmtGetNodeId(CO_NMT* nmt) {
 
 CO_MODE CONmtModeDecode(uint8_t code) {
   for (unsigned mode = CO_INIT; mode < CO_MODE_NUM; ++mode) {
-    if (wire::heartbeat_states[mode] == code) {
+    if (co::wire::heartbeat_states[mode] == code) {
       return static_cast<CO_MODE>(mode);
     }
   }
   return CO_INVALID;
 }
 
-uint8_t CONmtModeEncode(CO_MODE mode) { return wire::heartbeat_state(mode); }
+uint8_t CONmtModeEncode(CO_MODE mode) { return co::wire::heartbeat_state(mode); }
 
 }  // extern "C"
 
+namespace co::node {
 namespace {
 
 // Refuses a change of any bit except CO_NMT_STARTUP_STAY: the others belong to an NMT master.
@@ -297,5 +296,6 @@ CO_ERR may_replace(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {
 }
 
 }  // namespace
+}  // namespace co::node
 
-extern "C" const CO_OBJ_TYPE COTNmtStartup = parameter<4, rules::nmt_startup, may_replace>;
+extern "C" const CO_OBJ_TYPE COTNmtStartup = co::parameter<4, co::rules::nmt_startup, co::node::may_replace>;

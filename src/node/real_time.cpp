@@ -81,37 +81,35 @@ bool receive_from_mainline(CO_NODE& node, CO_IF_FRM& frame) { return CORingGet(n
 
 }  // namespace co::node
 
-using namespace co;
-
 // Keeps the node working throughout, so that the mainline runs the deferred work, except messages (EMCY, TPDOs). A
 // requested NMT state ends the loop, and is entered at the end.
 extern "C" void CONodeRealTime(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  const port::NodeLock lock(*node);
-  if (!port::has_mainline(*node)) {
+  const co::port::NodeLock lock(*node);
+  if (!co::port::has_mainline(*node)) {
     return;
   }
   (void)COTmrService(&node->Tmr);
-  if ((node->State & event::running) == 0) {
-    node::drop_received(*node);
+  if ((node->State & co::event::running) == 0) {
+    co::node::drop_received(*node);
     return;
   }
   const unsigned ends =
-      node->State == event::running
-          ? unsigned{event::mode}
+      node->State == co::event::running
+          ? unsigned{co::event::mode}
           : 0U;  // else the node works, without the lock while a memory is busy: the mainline enters the state
   {
-    const event::Working working(*node);
-    transmit::flush(*node);
-    CO_IF_FRM frame = wire::empty_frame();
-    while ((node->Pending & ends) == 0 && receive::read(*node, frame) > 0) {
-      count(node->Count.Received);
-      node::process_or_queue(*node, frame);
-      event::send_deferred(*node);
+    const co::event::Working working(*node);
+    co::transmit::flush(*node);
+    CO_IF_FRM frame = co::wire::empty_frame();
+    while ((node->Pending & ends) == 0 && co::receive::read(*node, frame) > 0) {
+      co::count(node->Count.Received);
+      co::node::process_or_queue(*node, frame);
+      co::event::send_deferred(*node);
     }
-    tmr::run_real_time(node->Tmr);
+    co::tmr::run_real_time(node->Tmr);
   }
-  node::run_pending(*node, event::mode);
+  co::node::run_pending(*node, co::event::mode);
 }
 
 #endif

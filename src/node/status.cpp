@@ -4,8 +4,7 @@
 #include "co_core.h"
 #include "dictionary/dict.hpp"
 
-using namespace co;
-
+namespace co::node {
 namespace {
 
 constexpr uint32_t key_status = CO_DEV(0x1002, 0);
@@ -20,6 +19,7 @@ CO_ERR replace_status(CO_NODE& node, const CO_OBJ& obj, uint32_t status) {
 }
 
 }  // namespace
+}  // namespace co::node
 
 extern "C" {
 
@@ -27,7 +27,7 @@ CO_ERR CONodeSetStatus(CO_NODE* node, uint32_t status) {
   if (node == nullptr || node->Dict.Node == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  const CO_OBJ* const obj = dict::find(*node, key_status);
+  const CO_OBJ* const obj = co::dict::find(*node, co::node::key_status);
   if (obj == nullptr) {
     return CO_ERR_OBJ_NOT_FOUND;
   }
@@ -35,18 +35,18 @@ CO_ERR CONodeSetStatus(CO_NODE* node, uint32_t status) {
     return CO_ERR_OBJ_ACC;
   }
   uint32_t before = 0;
-  CO_ERR err = dict::read_u32(*node, key_status, before);
+  CO_ERR err = co::dict::read_u32(*node, co::node::key_status, before);
   if (err == CO_ERR_NONE && before != status) {
-    err = replace_status(*node, *obj, status);
-    event::run_deferred(*node);
+    err = co::node::replace_status(*node, *obj, status);
+    co::event::run_deferred(*node);
   }
   return err;
 }
 
 uint32_t CONodeGetStatus(CO_NODE* node) {
   uint32_t status = 0;
-  const bool is_known =
-      node != nullptr && node->Dict.Node != nullptr && dict::read_u32(*node, key_status, status) == CO_ERR_NONE;
+  const bool is_known = node != nullptr && node->Dict.Node != nullptr &&
+                        co::dict::read_u32(*node, co::node::key_status, status) == CO_ERR_NONE;
   return is_known ? status : 0;
 }
 

@@ -126,8 +126,6 @@ CO_ERR run(CO_NODE& node, const CO_PARA& group, const uint8_t* data) {
 }  // namespace
 }  // namespace co::para
 
-using namespace co;
-
 extern "C" {
 
 // Default callbacks.
@@ -135,31 +133,31 @@ WEAK int16_t COParaDefault(CO_PARA*) { return 0; }
 
 WEAK void COParaLost(CO_NODE*, const CO_PARA*) {}
 
-const CO_OBJ_TYPE COTParaStore = {para::size, para::init, para::read, para::write, nullptr};
-const CO_OBJ_TYPE COTParaRestore = {para::size, para::init, para::read, para::write, nullptr};
-const CO_OBJ_TYPE COTVerifyConfig = {integer::Number<4>::size, para::init_verify, integer::Number<4>::read,
-                                     para::write_verify, nullptr};
+const CO_OBJ_TYPE COTParaStore = {co::para::size, co::para::init, co::para::read, co::para::write, nullptr};
+const CO_OBJ_TYPE COTParaRestore = {co::para::size, co::para::init, co::para::read, co::para::write, nullptr};
+const CO_OBJ_TYPE COTVerifyConfig = {co::integer::Number<4>::size, co::para::init_verify, co::integer::Number<4>::read,
+                                     co::para::write_verify, nullptr};
 
 CO_ERR COParaStore(const CO_PARA* pg, CO_NODE* node) {
   ASSERT_PTR_ERR(pg, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  return para::run(*node, *pg, para::memory_of(*pg));
+  return co::para::run(*node, *pg, co::para::memory_of(*pg));
 }
 
 CO_ERR COParaRestore(const CO_PARA* pg, CO_NODE* node) {
   ASSERT_PTR_ERR(pg, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  return para::run(*node, *pg, nullptr);
+  return co::para::run(*node, *pg, nullptr);
 }
 
 CO_ERR CONodeParaLoad(CO_NODE* node, CO_NMT_RESET type) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
   CO_ERR err = CO_ERR_NONE;
   {
-    const event::Working working(*node);
-    err = para::load(*node, type, &CO_PARA::Size);
+    const co::event::Working working(*node);
+    err = co::para::load(*node, type, &CO_PARA::Size);
   }
-  event::run_deferred(*node);
+  co::event::run_deferred(*node);
   return err;
 }
 

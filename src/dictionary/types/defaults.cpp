@@ -3,6 +3,7 @@
 #include "co_dict.h"
 #include "dictionary/obj.hpp"
 
+namespace co::defaults {
 namespace {
 
 void set_default(const CO_DEFAULTS& block) {
@@ -15,7 +16,7 @@ void set_default(const CO_DEFAULTS& block) {
 
 // Sets the default values of a reset; reset node includes the values of reset communication.
 CO_ERR reset(CO_OBJ* end, CO_NODE_T*, uint32_t type) {
-  const auto* block = co::data_of<const CO_DEFAULTS>(*end);
+  const auto* block = data_of<const CO_DEFAULTS>(*end);
   for (; block != nullptr && block->Size != 0; ++block) {
     if (type == CO_RESET_NODE || block->Type == CO_RESET_COM) {
       set_default(*block);
@@ -25,9 +26,10 @@ CO_ERR reset(CO_OBJ* end, CO_NODE_T*, uint32_t type) {
 }
 
 }  // namespace
+}  // namespace co::defaults
 
 extern "C" {
 
-const CO_OBJ_TYPE COTDefaults = {nullptr, nullptr, nullptr, nullptr, reset};
+const CO_OBJ_TYPE COTDefaults = {nullptr, nullptr, nullptr, nullptr, co::defaults::reset};
 
 }  // extern "C"

@@ -7,14 +7,15 @@
 #include "hal/port.hpp"
 #include "wire/bytes.hpp"
 
+namespace co::domain {
 namespace {
 
-using co::stream::clip;
+using stream::clip;
 
 // Returns the domain of an entry; null: the entry has no domain, or the domain has no memory.
 template <class Domain>
 Domain* find_domain(const CO_OBJ& obj) {
-  auto* const domain = co::data_of<Domain>(obj);
+  auto* const domain = data_of<Domain>(obj);
   return domain == nullptr || domain->Start == nullptr ? nullptr : domain;
 }
 
@@ -35,7 +36,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
     return CO_ERR_BAD_ARG;
   }
   const uint32_t n = clip(size, domain->Offset, domain->Size);
-  co::wire::copy(static_cast<uint8_t*>(buffer), domain->Start + domain->Offset, n);
+  wire::copy(static_cast<uint8_t*>(buffer), domain->Start + domain->Offset, n);
   domain->Offset += n;
   return CO_ERR_NONE;
 }
@@ -46,11 +47,11 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (domain == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  if (!co::port::is_writable(*node, domain->Start, domain->Size)) {
+  if (!port::is_writable(*node, domain->Start, domain->Size)) {
     return CO_ERR_OBJ_ACC;
   }
   const uint32_t n = clip(size, domain->Offset, domain->Size);
-  co::wire::copy(domain->Start + domain->Offset, static_cast<const uint8_t*>(buffer), n);
+  wire::copy(domain->Start + domain->Offset, static_cast<const uint8_t*>(buffer), n);
   domain->Offset += n;
   return CO_ERR_NONE;
 }
@@ -63,11 +64,14 @@ uint32_t size_of_constant(CO_OBJ* obj, CO_NODE*, uint32_t) {
 }
 
 }  // namespace
+}  // namespace co::domain
 
 extern "C" {
 
-const CO_OBJ_TYPE COTDomain = {size, co::stream::init, read<CO_OBJ_DOM>, write, co::stream::reset};
+const CO_OBJ_TYPE COTDomain = {co::domain::size, co::stream::init, co::domain::read<CO_OBJ_DOM>, co::domain::write,
+                               co::stream::reset};
 
-const CO_OBJ_TYPE COTDomainRo = {size_of_constant, co::stream::init, read<CO_OBJ_DOM_RO>, nullptr, co::stream::reset};
+const CO_OBJ_TYPE COTDomainRo = {co::domain::size_of_constant, co::stream::init, co::domain::read<CO_OBJ_DOM_RO>,
+                                 nullptr, co::stream::reset};
 
 }  // extern "C"

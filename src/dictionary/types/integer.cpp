@@ -101,17 +101,15 @@ void put_u32(void* to, uint32_t value) { store(to, value, sizeof value); }
 
 }  // namespace co::integer
 
-using namespace co;
-using namespace co::integer;
-
 extern "C" {
 
-const CO_OBJ_TYPE COTInt8 = table<1>;
-const CO_OBJ_TYPE COTInt16 = table<2>;
-const CO_OBJ_TYPE COTInt32 = table<4>;
+const CO_OBJ_TYPE COTInt8 = co::integer::table<1>;
+const CO_OBJ_TYPE COTInt16 = co::integer::table<2>;
+const CO_OBJ_TYPE COTInt32 = co::integer::table<4>;
 // The rules of these types refuse flag N, which has no meaning for them.
-const CO_OBJ_TYPE COTReal32 = {Real32::size, dict::checked_by<rules::variable>, Real32::read, Real32::write, nullptr};
-const CO_OBJ_TYPE COTBoolean = parameter<1, rules::boolean, at_most<1>>;
+const CO_OBJ_TYPE COTReal32 = {co::integer::Real32::size, co::dict::checked_by<co::rules::variable>,
+                               co::integer::Real32::read, co::integer::Real32::write, nullptr};
+const CO_OBJ_TYPE COTBoolean = co::parameter<1, co::rules::boolean, co::at_most<1>>;
 
 }  // extern "C"
 

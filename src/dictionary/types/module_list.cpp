@@ -7,9 +7,8 @@
 #include "dictionary/obj.hpp"
 #include "hal/port.hpp"
 
+namespace co::module_list {
 namespace {
-
-using namespace co;
 
 constexpr uint16_t most_modules = 254;
 
@@ -49,6 +48,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t width) {
 }
 
 }  // namespace
+}  // namespace co::module_list
 
-extern "C" const CO_OBJ_TYPE COTModuleList = {size, co::dict::checked_by<co::rules::module_list>, read, nullptr,
-                                              nullptr};
+extern "C" const CO_OBJ_TYPE COTModuleList = {co::module_list::size, co::dict::checked_by<co::rules::module_list>,
+                                              co::module_list::read, nullptr, nullptr};

@@ -5,14 +5,15 @@
 #include "hal/port.hpp"
 #include "wire/bytes.hpp"
 
+namespace co::string {
 namespace {
 
-using co::stream::clip;
+using stream::clip;
 
 // Read-only text ------------------------------------------------------------------------------------------------------
 
 uint32_t text_size(CO_OBJ* obj, CO_NODE*, uint32_t) {
-  const auto* const text = co::data_of<const CO_OBJ_STR>(*obj);
+  const auto* const text = data_of<const CO_OBJ_STR>(*obj);
   if (text == nullptr || text->Start == nullptr) {
     return 0;
   }
@@ -25,12 +26,12 @@ uint32_t text_size(CO_OBJ* obj, CO_NODE*, uint32_t) {
 
 // Reads the next bytes of the text, which may have become shorter since the access began.
 CO_ERR text_read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  auto* const text = co::data_of<CO_OBJ_STR>(*obj);
+  auto* const text = data_of<CO_OBJ_STR>(*obj);
   if (text == nullptr || text->Start == nullptr) {
     return CO_ERR_BAD_ARG;
   }
   const uint32_t n = clip(size, text->Offset, text_size(obj, node, 0));
-  co::wire::copy(static_cast<uint8_t*>(buffer), text->Start + text->Offset, n);
+  wire::copy(static_cast<uint8_t*>(buffer), text->Start + text->Offset, n);
   text->Offset += n;
   return CO_ERR_NONE;
 }
@@ -39,7 +40,7 @@ CO_ERR text_read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Returns the string of an entry; null: the entry has no string, or the string has no memory.
 CO_OBJ_STR_RW* find_string(const CO_OBJ& obj) {
-  auto* const string = co::data_of<CO_OBJ_STR_RW>(obj);
+  auto* const string = data_of<CO_OBJ_STR_RW>(obj);
   return string == nullptr || string->Start == nullptr ? nullptr : string;
 }
 
@@ -78,7 +79,7 @@ uint32_t unicode_size(CO_OBJ* obj, CO_NODE*, uint32_t width) { return size_for(*
 
 // Mask for the offsets of bytes in a UNICODE_STRING, whose characters are stored in the byte order of the CPU.
 // [301:7.1.6.4]
-constexpr uint32_t unicode_flip = co::wire::host_is_little_endian ? 0 : 1;
+constexpr uint32_t unicode_flip = wire::host_is_little_endian ? 0 : 1;
 
 template <uint32_t flip>
 CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
@@ -101,7 +102,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   }
   const auto* from = static_cast<const uint8_t*>(buffer);
   uint32_t n = clip(size, string->Offset, string->Capacity);
-  if (!co::port::is_writable(*node, string->Start, string->Capacity)) {
+  if (!port::is_writable(*node, string->Start, string->Capacity)) {
     return CO_ERR_OBJ_ACC;
   }
   for (; n != 0; --n) {
@@ -124,13 +125,18 @@ CO_ERR visible_write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 }
 
 }  // namespace
+}  // namespace co::string
 
 extern "C" {
 
-const CO_OBJ_TYPE COTString = {text_size, co::stream::init, text_read, nullptr, co::stream::reset};
-const CO_OBJ_TYPE COTVisibleString = {visible_size, co::stream::init, read<0>, visible_write, co::stream::reset};
-const CO_OBJ_TYPE COTOctetString = {octet_size, co::stream::init, read<0>, write<0>, co::stream::reset};
-const CO_OBJ_TYPE COTUnicodeString = {unicode_size, co::stream::init, read<unicode_flip>, write<unicode_flip>,
-                                      co::stream::reset};
+const CO_OBJ_TYPE COTString = {co::string::text_size, co::stream::init, co::string::text_read, nullptr,
+                               co::stream::reset};
+const CO_OBJ_TYPE COTVisibleString = {co::string::visible_size, co::stream::init, co::string::read<0>,
+                                      co::string::visible_write, co::stream::reset};
+const CO_OBJ_TYPE COTOctetString = {co::string::octet_size, co::stream::init, co::string::read<0>, co::string::write<0>,
+                                    co::stream::reset};
+const CO_OBJ_TYPE COTUnicodeString = {co::string::unicode_size, co::stream::init,
+                                      co::string::read<co::string::unicode_flip>,
+                                      co::string::write<co::string::unicode_flip>, co::stream::reset};
 
 }  // extern "C"

@@ -62,57 +62,58 @@ using Real64 = Wide<8, 8>;
 }  // namespace
 }  // namespace co::integer
 
-using namespace co;
-using namespace co::integer;
-
 extern "C" {
 
-const CO_OBJ_TYPE COTInt64 = Wide<8, 8>::table;
-const CO_OBJ_TYPE COTUnsigned24 = Wide<3, 4>::table;
-const CO_OBJ_TYPE COTUnsigned40 = Wide<5, 8>::table;
-const CO_OBJ_TYPE COTUnsigned48 = Wide<6, 8>::table;
-const CO_OBJ_TYPE COTUnsigned56 = Wide<7, 8>::table;
-const CO_OBJ_TYPE COTSigned24 = Wide<3, 4, true>::table;
-const CO_OBJ_TYPE COTSigned40 = Wide<5, 8, true>::table;
-const CO_OBJ_TYPE COTSigned48 = Wide<6, 8, true>::table;
-const CO_OBJ_TYPE COTSigned56 = Wide<7, 8, true>::table;
+const CO_OBJ_TYPE COTInt64 = co::integer::Wide<8, 8>::table;
+const CO_OBJ_TYPE COTUnsigned24 = co::integer::Wide<3, 4>::table;
+const CO_OBJ_TYPE COTUnsigned40 = co::integer::Wide<5, 8>::table;
+const CO_OBJ_TYPE COTUnsigned48 = co::integer::Wide<6, 8>::table;
+const CO_OBJ_TYPE COTUnsigned56 = co::integer::Wide<7, 8>::table;
+const CO_OBJ_TYPE COTSigned24 = co::integer::Wide<3, 4, true>::table;
+const CO_OBJ_TYPE COTSigned40 = co::integer::Wide<5, 8, true>::table;
+const CO_OBJ_TYPE COTSigned48 = co::integer::Wide<6, 8, true>::table;
+const CO_OBJ_TYPE COTSigned56 = co::integer::Wide<7, 8, true>::table;
 // The rule of this type refuses flag N, which has no meaning for it.
-const CO_OBJ_TYPE COTReal64 = {Real64::size, dict::checked_by<rules::variable>, Real64::read, Real64::write, nullptr};
+const CO_OBJ_TYPE COTReal64 = {co::integer::Real64::size, co::dict::checked_by<co::rules::variable>,
+                               co::integer::Real64::read, co::integer::Real64::write, nullptr};
 
 }  // extern "C"
 
+namespace co::time_of_day {
 namespace {
 
-constexpr uint32_t bytes = co::wire::time_bytes;
+constexpr uint32_t bytes = wire::time_bytes;
 
-uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return co::data_of<CO_TIME_OF_DAY>(*obj) == nullptr ? 0 : bytes; }
+uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return data_of<CO_TIME_OF_DAY>(*obj) == nullptr ? 0 : bytes; }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
-  const auto* const time = co::data_of<const CO_TIME_OF_DAY>(*obj);
+  const auto* const time = data_of<const CO_TIME_OF_DAY>(*obj);
   if (size != bytes || time == nullptr) {
     return CO_ERR_BAD_ARG;
   }
   auto* const to = static_cast<uint8_t*>(buffer);
-  co::wire::put_time(to, *time);
-  co::wire::swap_host(to, bytes);
+  wire::put_time(to, *time);
+  wire::swap_host(to, bytes);
   return CO_ERR_NONE;
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  auto* const time = co::data_of<CO_TIME_OF_DAY>(*obj);
+  auto* const time = data_of<CO_TIME_OF_DAY>(*obj);
   if (size != bytes || time == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  if (!co::port::is_writable(*node, time, sizeof *time)) {
+  if (!port::is_writable(*node, time, sizeof *time)) {
     return CO_ERR_OBJ_ACC;
   }
   uint8_t from[bytes];
   __builtin_memcpy(from, buffer, bytes);
-  co::wire::swap_host(from, bytes);
-  *time = co::wire::get_time(from);
+  wire::swap_host(from, bytes);
+  *time = wire::get_time(from);
   return CO_ERR_NONE;
 }
 
 }  // namespace
+}  // namespace co::time_of_day
 
-extern "C" const CO_OBJ_TYPE COTTimeOfDay = {size, co::dict::checked_by<co::rules::variable>, read, write, nullptr};
+extern "C" const CO_OBJ_TYPE COTTimeOfDay = {co::time_of_day::size, co::dict::checked_by<co::rules::variable>,
+                                             co::time_of_day::read, co::time_of_day::write, nullptr};

@@ -123,64 +123,62 @@ void mirror([[maybe_unused]] const OD_entry_t& entry, [[maybe_unused]] uint8_t s
 }  // namespace
 }  // namespace co::od
 
-using namespace co;
-
 extern "C" {
 
 void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) {
-  CO_OBJ* const obj = od::find_entry_in_use(entry, subIndex);
+  CO_OBJ* const obj = co::od::find_entry_in_use(entry, subIndex);
   if (obj == nullptr) {
     return;
   }
-  CO_NODE& node = *od::owner_of(*entry).Node;
-  const event::Call call(node);
-  od::mirror(*entry, subIndex, false);
-  od::clear_sent(node, pdo::number_of(node, *obj));
+  CO_NODE& node = *co::od::owner_of(*entry).Node;
+  const co::event::Call call(node);
+  co::od::mirror(*entry, subIndex, false);
+  co::od::clear_sent(node, co::pdo::number_of(node, *obj));
   const uint32_t key = obj->Key;  // a copy: a callback may replace the table
-  error::report(node, pdo::request_object(node, *obj), key);
+  co::error::report(node, co::pdo::request_object(node, *obj), key);
 }
 
 bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex) {
-  const CO_OBJ* const obj = od::find_entry_in_use(entry, subIndex);
+  const CO_OBJ* const obj = co::od::find_entry_in_use(entry, subIndex);
   if (obj == nullptr) {
     return false;
   }
-  CO_NODE& node = *od::owner_of(*entry).Node;
-  const bool is_sent = od::was_sent(node, pdo::number_of(node, *obj));
+  CO_NODE& node = *co::od::owner_of(*entry).Node;
+  const bool is_sent = co::od::was_sent(node, co::pdo::number_of(node, *obj));
   if (is_sent) {
-    od::mirror(*entry, subIndex, true);
+    co::od::mirror(*entry, subIndex, true);
   }
   return is_sent;
 }
 
 OD_flagsPDO_t OD_getFlagsPDO(const OD_entry_t* entry, uint8_t subIndex) {
-  const CO_OBJ* const obj = od::find_entry_in_use(entry, subIndex);
+  const CO_OBJ* const obj = co::od::find_entry_in_use(entry, subIndex);
   if (obj == nullptr) {
     return 0;
   }
-  CO_NODE& node = *od::owner_of(*entry).Node;
-  return od::flags_of(node, pdo::number_of(node, *obj));
+  CO_NODE& node = *co::od::owner_of(*entry).Node;
+  return co::od::flags_of(node, co::pdo::number_of(node, *obj));
 }
 
 // Does not use entry after the first request, which may call functions of the application: they may change the index.
 void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t flags) {
-  const CO_OBJ* const obj = od::find_entry_in_use(entry, subIndex);
+  const CO_OBJ* const obj = co::od::find_entry_in_use(entry, subIndex);
   if (obj == nullptr) {
     return;
   }
-  CO_NODE& node = *od::owner_of(*entry).Node;
-  const uint16_t number = pdo::number_of(node, *obj);
-  if ((flags & od::received) != 0) {
-    od::clear_received(node, number);
+  CO_NODE& node = *co::od::owner_of(*entry).Node;
+  const uint16_t number = co::pdo::number_of(node, *obj);
+  if ((flags & co::od::received) != 0) {
+    co::od::clear_received(node, number);
   }
-  const event::Call call(node);
-  OD_flagsPDO_t left = (flags & od::sent) >> 1;
+  const co::event::Call call(node);
+  OD_flagsPDO_t left = (flags & co::od::sent) >> 1;
   if (left != 0) {
-    od::mirror(*entry, subIndex, false);
+    co::od::mirror(*entry, subIndex, false);
   }
   for (unsigned tpdo = 0; left != 0; ++tpdo, left >>= 1) {
     if ((left & 1U) != 0) {
-      od::request(node, number, tpdo);
+      co::od::request(node, number, tpdo);
     }
   }
 }

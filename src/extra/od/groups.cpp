@@ -60,17 +60,15 @@ ODR_t command(const OD_t* od, uint8_t sub, uint16_t index, uint32_t signature) {
 }  // namespace
 }  // namespace co::od
 
-using namespace co;
-
 extern "C" {
 
 uint8_t OD_findStorageGroup(const OD_t* od, const char* name) {
   if (od == nullptr || name == nullptr) {
     return 0;
   }
-  for (uint8_t sub = 1; sub <= od::last_group; ++sub) {
-    const CO_PARA* const group = od::group_at(*od, sub);
-    if (group != nullptr && od::is_named(*group, name)) {
+  for (uint8_t sub = 1; sub <= co::od::last_group; ++sub) {
+    const CO_PARA* const group = co::od::group_at(*od, sub);
+    if (group != nullptr && co::od::is_named(*group, name)) {
       return sub;
     }
   }
@@ -80,33 +78,33 @@ uint8_t OD_findStorageGroup(const OD_t* od, const char* name) {
 // Returns sub-index 1 only if 1010h has no other group; otherwise sub-index 1 selects all groups.
 uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) {
   const void* const memory = OD_getPtr(entry, subIndex, 0, nullptr);
-  if (memory == nullptr || !od::is_of_table(*entry)) {
+  if (memory == nullptr || !co::od::is_of_table(*entry)) {
     return 0;
   }
-  const OD_t& od = od::owner_of(*entry);
+  const OD_t& od = co::od::owner_of(*entry);
   bool has_others = false;
-  for (uint8_t sub = 2; sub <= od::last_group; ++sub) {
-    const CO_PARA* const group = od::group_at(od, sub);
+  for (uint8_t sub = 2; sub <= co::od::last_group; ++sub) {
+    const CO_PARA* const group = co::od::group_at(od, sub);
     has_others |= group != nullptr;
-    if (group != nullptr && od::holds(*group, memory)) {
+    if (group != nullptr && co::od::holds(*group, memory)) {
       return sub;
     }
   }
-  const CO_PARA* const alone = has_others ? nullptr : od::group_at(od, 1);
-  return alone != nullptr && od::holds(*alone, memory) ? 1 : 0;
+  const CO_PARA* const alone = has_others ? nullptr : co::od::group_at(od, 1);
+  return alone != nullptr && co::od::holds(*alone, memory) ? 1 : 0;
 }
 
 const char* OD_getStorageName(const OD_t* od, uint8_t group) {
-  const CO_PARA* const found = od == nullptr ? nullptr : od::group_at(*od, group);
-  return found == nullptr ? nullptr : od::name_of(*found);
+  const CO_PARA* const found = od == nullptr ? nullptr : co::od::group_at(*od, group);
+  return found == nullptr ? nullptr : co::od::name_of(*found);
 }
 
 ODR_t OD_storeGroup(const OD_t* od, uint8_t group) {
-  return od::command(od, group, para::store_index, od::save_signature);
+  return co::od::command(od, group, co::para::store_index, co::od::save_signature);
 }
 
 ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) {
-  return od::command(od, group, para::restore_index, od::load_signature);
+  return co::od::command(od, group, co::para::restore_index, co::od::load_signature);
 }
 
 }  // extern "C"

@@ -107,19 +107,17 @@ OD_extension_t* extension_of(const CO_NODE& node, const CO_OBJ& obj) {
 
 }  // namespace co::od
 
-using namespace co;
-
 extern "C" {
 
 ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, CO_NODE_T* node, CO_OBJ_T* table, uint16_t tableLen) {
   if (od == nullptr || list == nullptr || node == nullptr || table == nullptr) {
     return ODR_DEV_INCOMPAT;
   }
-  const uint16_t entries = dict::count_entries(table, tableLen);
-  if (!od::is_ascending(table, entries)) {
+  const uint16_t entries = co::dict::count_entries(table, tableLen);
+  if (!co::od::is_ascending(table, entries)) {
     return ODR_DEV_INCOMPAT;
   }
-  const uint16_t objects = od::count_objects(table, entries);
+  const uint16_t objects = co::od::count_objects(table, entries);
   if (od->Node != node) {  // transfers of the same node continue
     *od = {};
   }
@@ -131,15 +129,15 @@ ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, CO_NODE_T* node, CO_OBJ_
     od->list = nullptr;
     return ODR_OUT_OF_MEM;
   }
-  const uint16_t kept = od::keep_extended(*od, list);
+  const uint16_t kept = co::od::keep_extended(*od, list);
   od->list = list;
   od->Filled = list;
-  od::fill_list(*od, objects, kept);
+  co::od::fill_list(*od, objects, kept);
   return ODR_OK;
 }
 
 OD_entry_t* OD_find(OD_t* od, uint16_t index) {
-  return od == nullptr || od->list == nullptr ? nullptr : od::find(*od, index);
+  return od == nullptr || od->list == nullptr ? nullptr : co::od::find(*od, index);
 }
 
 uint16_t OD_getIndex(const OD_entry_t* entry) { return entry == nullptr ? static_cast<uint16_t>(0) : entry->index; }

@@ -34,24 +34,22 @@ void release_node_lock(CO_NODE& node) {
 }  // namespace
 }  // namespace co::od
 
-using namespace co;
-
 extern "C" {
 
 void OD_lock(CO_NODE_T* node) {
   ASSERT_PTR_FATAL(node);
-  if (!port::is_initialised(*node)) {
+  if (!co::port::is_initialised(*node)) {
     return;
   }
-  port::has_node_lock(*node) ? port::lock_node(*node) : od::lock_objects(*node);
+  co::port::has_node_lock(*node) ? co::port::lock_node(*node) : co::od::lock_objects(*node);
 }
 
 void OD_unlock(CO_NODE_T* node) {
   ASSERT_PTR_FATAL(node);
-  if (!port::is_initialised(*node)) {
+  if (!co::port::is_initialised(*node)) {
     return;
   }
-  port::has_node_lock(*node) ? od::release_node_lock(*node) : od::unlock_objects(*node);
+  co::port::has_node_lock(*node) ? co::od::release_node_lock(*node) : co::od::unlock_objects(*node);
 }
 
 }  // extern "C"

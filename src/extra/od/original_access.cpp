@@ -353,8 +353,6 @@ ODR_t write_memory(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD
 
 }  // namespace co::od
 
-using namespace co::od;
-
 extern "C" {
 
 ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead) {
@@ -362,8 +360,8 @@ ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t
     return ODR_DEV_INCOMPAT;
   }
   auto* const to = static_cast<uint8_t*>(buf);
-  return stream->Entry == nullptr ? read_memory(*stream, to, count, *countRead)
-                                  : read_object(*stream, to, count, *countRead);
+  return stream->Entry == nullptr ? co::od::read_memory(*stream, to, count, *countRead)
+                                  : co::od::read_object(*stream, to, count, *countRead);
 }
 
 // Runs deferred work, unless an extension's write function is the caller: the caller of that function does it.
@@ -373,13 +371,13 @@ ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD
   }
   const auto* const from = static_cast<const uint8_t*>(buf);
   if (stream->Entry == nullptr) {
-    return write_memory(*stream, from, count, *countWritten);
+    return co::od::write_memory(*stream, from, count, *countWritten);
   }
   CO_NODE& node = *stream->Owner;
   if (!co::port::is_initialised(node)) {
     return ODR_DEV_INCOMPAT;
   }
-  const ODR_t result = write_object(*stream, from, count, *countWritten);
+  const ODR_t result = co::od::write_object(*stream, from, count, *countWritten);
   if (node.Ext->Od == nullptr || node.Ext->Od->Writing == nullptr) {
     co::event::run_deferred(node);
   }

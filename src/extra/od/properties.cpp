@@ -31,12 +31,14 @@
 #pragma weak COTDomain
 #pragma weak ODTNumber
 
-const CO_OBJ_TYPE* co::stream::original_type(const CO_OBJ& obj) {
+namespace co {
+
+const CO_OBJ_TYPE* stream::original_type(const CO_OBJ& obj) {
   const bool has_original = obj.Type->Init != nullptr && obj.Type->Init == ODTypeInit;
   return has_original ? reinterpret_cast<const OD_TYPE*>(obj.Type)->Original : obj.Type;
 }
 
-namespace co::od {
+namespace od {
 namespace {
 
 constexpr uint32_t longest_number = 8;
@@ -194,6 +196,7 @@ OD_stream_t stream_of(CO_OBJ& obj, CO_NODE& node) {
   return stream;
 }
 
-}  // namespace co::od
+}  // namespace od
+}  // namespace co
 
 #endif

@@ -484,46 +484,44 @@ CO_ERR unless_extension_changed(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER tran
 }  // namespace
 }  // namespace co::od
 
-using namespace co;
-using namespace co::od;
-
 extern "C" {
 
 // Returns the size of an extensible stream. width: bytes of a download, 0 for an upload.
 uint32_t ODStreamSize(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t width) {
-  const OD_extension_t* const extension = extension_of(*node, *obj);
+  const OD_extension_t* const extension = co::od::extension_of(*node, *obj);
   const bool is_original = extension == nullptr || extension->read == OD_readOriginal;
-  return width != 0 || is_original ? size_of_original(*obj, *node, width) : size_to_read(*obj, *node);
+  return width != 0 || is_original ? co::od::size_of_original(*obj, *node, width) : co::od::size_to_read(*obj, *node);
 }
 
 CO_ERR ODStreamRead(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
-  return unless_extension_changed(*obj, *node, CO_OBJ_UPLOAD, [=] { return upload_piece(*obj, *node, buffer, size); });
+  return co::od::unless_extension_changed(*obj, *node, CO_OBJ_UPLOAD,
+                                          [=] { return co::od::upload_piece(*obj, *node, buffer, size); });
 }
 
 CO_ERR ODStreamWrite(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
-  return unless_extension_changed(*obj, *node, CO_OBJ_DOWNLOAD,
-                                  [=] { return download_piece(*obj, *node, buffer, size); });
+  return co::od::unless_extension_changed(*obj, *node, CO_OBJ_DOWNLOAD,
+                                          [=] { return co::od::download_piece(*obj, *node, buffer, size); });
 }
 
 CO_ERR ODStreamReset(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t position) {
-  return unless_extension_changed(*obj, *node, CO_OBJ_UPLOAD, [=] {
-    const OD_extension_t* const extension = extension_of(*node, *obj);
-    return extension == nullptr ? set_original_position(*obj, *node, position)
-                                : set_position(*obj, *node, *extension, position);
+  return co::od::unless_extension_changed(*obj, *node, CO_OBJ_UPLOAD, [=] {
+    const OD_extension_t* const extension = co::od::extension_of(*node, *obj);
+    return extension == nullptr ? co::od::set_original_position(*obj, *node, position)
+                                : co::od::set_position(*obj, *node, *extension, position);
   });
 }
 
 CO_ERR ODStreamBegin(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t size) {
-  OD_t* const od = port::od_of(*node);
-  OD_TRANSFER* const od_transfer = od == nullptr ? nullptr : begin_transfer(*od, *node, *obj, size);
+  OD_t* const od = co::port::od_of(*node);
+  OD_TRANSFER* const od_transfer = od == nullptr ? nullptr : co::od::begin_transfer(*od, *node, *obj, size);
   if (od == nullptr || od_transfer == nullptr) {
-    return od == nullptr ? begin_original(*obj, *node, transfer, size) : CO_ERR_OBJ_STATE;
+    return od == nullptr ? co::od::begin_original(*obj, *node, transfer, size) : CO_ERR_OBJ_STATE;
   }
-  set(*od_transfer, in_application);
-  const CO_ERR err = begin_original(*obj, *node, transfer, size);
-  clear(*od_transfer, in_application);
+  set(*od_transfer, co::od::in_application);
+  const CO_ERR err = co::od::begin_original(*obj, *node, transfer, size);
+  clear(*od_transfer, co::od::in_application);
   if (err != CO_ERR_NONE) {
-    end_transfer(*od_transfer);
+    co::od::end_transfer(*od_transfer);
   }
   return err;
 }
@@ -531,21 +529,22 @@ CO_ERR ODStreamBegin(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, u
 // Ends a transfer for the extension, then for the original type. If the end fails for the extension, the original type
 // gets its abort code.
 CO_ERR ODStreamEnd(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
-  const Abort code{abort};
-  OD_t* const od = port::od_of(*node);
-  OD_TRANSFER* const od_transfer = od == nullptr ? nullptr : first_transfer(*od, *obj);
+  const co::Abort code{abort};
+  OD_t* const od = co::port::od_of(*node);
+  OD_TRANSFER* const od_transfer = od == nullptr ? nullptr : co::od::first_transfer(*od, *obj);
   if (od_transfer == nullptr) {
-    return end_original(*obj, *node, transfer, code);
+    return co::od::end_original(*obj, *node, transfer, code);
   }
   CO_ERR err = CO_ERR_NONE;
-  if (code == Abort::none) {
-    err = unless_extension_changed(*obj, *node, transfer, [=] {
-      return transfer == CO_OBJ_DOWNLOAD ? finish_download(*obj, *node, *od_transfer) : CO_ERR_NONE;
+  if (code == co::Abort::none) {
+    err = co::od::unless_extension_changed(*obj, *node, transfer, [=] {
+      return transfer == CO_OBJ_DOWNLOAD ? co::od::finish_download(*obj, *node, *od_transfer) : CO_ERR_NONE;
     });
   }
-  set(*od_transfer, in_application);
-  const CO_ERR end = end_original(*obj, *node, transfer, err == CO_ERR_NONE ? code : access::abort_for(*node, err));
-  end_transfer(*od_transfer);
+  set(*od_transfer, co::od::in_application);
+  const CO_ERR end =
+      co::od::end_original(*obj, *node, transfer, err == CO_ERR_NONE ? code : co::access::abort_for(*node, err));
+  co::od::end_transfer(*od_transfer);
   return err != CO_ERR_NONE ? err : end;
 }
 

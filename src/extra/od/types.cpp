@@ -88,22 +88,19 @@ void report_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_orig
 
 }  // namespace co::od
 
-using namespace co;
-using namespace co::od;
-
 extern "C" {
 
 CO_ERR ODTypeInit(CO_OBJ_T* obj, CO_NODE_T* node) {
-  node->PassStream = od::pass_stream;
-  const CO_OBJ_TYPE* const type = original_type(*obj);
+  node->PassStream = co::od::pass_stream;
+  const CO_OBJ_TYPE* const type = co::od::original_type(*obj);
   if (type == nullptr || type->Init == nullptr) {
     return CO_ERR_NONE;
   }
-  return is_extensible(*type) ? dict::set_fault(*obj, *node, CO_DICT_NO_TYPE) : type->Init(obj, node);
+  return co::od::is_extensible(*type) ? co::dict::set_fault(*obj, *node, CO_DICT_NO_TYPE) : type->Init(obj, node);
 }
 
 uint32_t ODValueSize(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t width) {
-  const CO_OBJ_TYPE* const type = original_type(*obj);
+  const CO_OBJ_TYPE* const type = co::od::original_type(*obj);
   if (type == nullptr) {
     return static_cast<uint32_t>(uintptr_t{obj->Data});
   }
@@ -111,22 +108,24 @@ uint32_t ODValueSize(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t width) {
 }
 
 CO_ERR ODValueRead(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
-  const OD_extension_t* const extension = extension_of(*node, *obj);
+  const OD_extension_t* const extension = co::od::extension_of(*node, *obj);
   if (extension != nullptr) {
-    return size == ODValueSize(obj, node, size) ? read_number(*obj, *node, *extension, buffer, size) : CO_ERR_BAD_ARG;
+    return size == ODValueSize(obj, node, size) ? co::od::read_number(*obj, *node, *extension, buffer, size)
+                                                : CO_ERR_BAD_ARG;
   }
-  const CO_OBJ_TYPE* const type = type_if_not_extended(*extensible(*obj));
-  return type == nullptr || type->Read == nullptr ? refuse_access(*obj, *node, CO_OBJ_UPLOAD)
+  const CO_OBJ_TYPE* const type = co::od::type_if_not_extended(*co::od::extensible(*obj));
+  return type == nullptr || type->Read == nullptr ? co::od::refuse_access(*obj, *node, CO_OBJ_UPLOAD)
                                                   : type->Read(obj, node, buffer, size);
 }
 
 CO_ERR ODValueWrite(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
-  const OD_extension_t* const extension = extension_of(*node, *obj);
+  const OD_extension_t* const extension = co::od::extension_of(*node, *obj);
   if (extension != nullptr) {
-    return size == ODValueSize(obj, node, size) ? write_number(*obj, *node, *extension, buffer, size) : CO_ERR_BAD_ARG;
+    return size == ODValueSize(obj, node, size) ? co::od::write_number(*obj, *node, *extension, buffer, size)
+                                                : CO_ERR_BAD_ARG;
   }
-  const CO_OBJ_TYPE* const type = type_if_not_extended(*extensible(*obj));
-  return type == nullptr || type->Write == nullptr ? refuse_access(*obj, *node, CO_OBJ_DOWNLOAD)
+  const CO_OBJ_TYPE* const type = co::od::type_if_not_extended(*co::od::extensible(*obj));
+  return type == nullptr || type->Write == nullptr ? co::od::refuse_access(*obj, *node, CO_OBJ_DOWNLOAD)
                                                    : type->Write(obj, node, buffer, size);
 }
 
@@ -194,11 +193,9 @@ ODR_t result_of(const CO_NODE& node, const CO_OBJ& obj, CO_ERR err) {
 
 }  // namespace co::od
 
-using namespace co::od;
-
 extern "C" uint32_t OD_getSDOabCode(ODR_t returnCode) {
   const int number = returnCode;
-  return code_of(codes[number < 0 || number >= ODR_COUNT ? ODR_DEV_INCOMPAT : number]);
+  return co::od::code_of(co::od::codes[number < 0 || number >= ODR_COUNT ? ODR_DEV_INCOMPAT : number]);
 }
 
 #endif

@@ -119,8 +119,6 @@ ODR_t check_length(ODR_t result, OD_size_t passed, OD_size_t length, ODR_t if_wr
 }  // namespace
 }  // namespace co::od
 
-using namespace co::od;
-
 extern "C" {
 
 ODR_t OD_getSub(const OD_entry_t* entry, uint8_t subIndex, OD_IO_t* io, bool_t odOrig) {
@@ -130,14 +128,14 @@ ODR_t OD_getSub(const OD_entry_t* entry, uint8_t subIndex, OD_IO_t* io, bool_t o
   if (io == nullptr) {
     return ODR_DEV_INCOMPAT;
   }
-  const ODR_t result = describe(*entry, subIndex, io->stream);
+  const ODR_t result = co::od::describe(*entry, subIndex, io->stream);
   if (result != ODR_OK) {
     return result;
   }
   io->read = OD_readOriginal;
   io->write = OD_writeOriginal;
-  if (!odOrig && is_extended(*entry, io->stream)) {
-    extend(*entry->extension, *io);
+  if (!odOrig && co::od::is_extended(*entry, io->stream)) {
+    co::od::extend(*entry->extension, *io);
   }
   return ODR_OK;
 }
@@ -156,13 +154,13 @@ ODR_t OD_extension_init(OD_entry_t* entry, OD_extension_t* extension) {
   if (entry == nullptr) {
     return ODR_IDX_NOT_EXIST;
   }
-  if (extension != nullptr && !changes_nothing(*extension) && !has_extensible(*entry)) {
+  if (extension != nullptr && !co::od::changes_nothing(*extension) && !co::od::has_extensible(*entry)) {
     return ODR_UNSUPP_ACCESS;
   }
   const bool is_other = entry->extension != extension;
   entry->extension = extension;
-  if (is_other && is_of_table(*entry)) {
-    end_accesses(owner_of(*entry), entry->index);
+  if (is_other && co::od::is_of_table(*entry)) {
+    co::od::end_accesses(co::od::owner_of(*entry), entry->index);
   }
   return ODR_OK;
 }
@@ -181,7 +179,7 @@ ODR_t OD_get_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size
   }
   OD_size_t passed = len;
   const ODR_t result = io.read(&io.stream, val, len, &passed);
-  return check_length(result, passed, len, ODR_DATA_SHORT);
+  return co::od::check_length(result, passed, len, ODR_DATA_SHORT);
 }
 
 ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig) {
@@ -198,7 +196,7 @@ ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size
   }
   OD_size_t passed = len;
   const ODR_t result = io.write(&io.stream, val, len, &passed);
-  return check_length(result, passed, len, ODR_DEV_INCOMPAT);
+  return co::od::check_length(result, passed, len, ODR_DEV_INCOMPAT);
 }
 
 void* OD_getPtr(const OD_entry_t* entry, uint8_t subIndex, OD_size_t len, ODR_t* err) {

@@ -17,9 +17,8 @@
 
 #if USE_OBJ_EX
 
+namespace co::os_command {
 namespace {
-
-using namespace co;
 
 constexpr uint16_t length_bytes = 2;
 constexpr uint16_t no_download = UINT16_MAX;  // value of Begin
@@ -342,32 +341,36 @@ CO_ERR write_mode(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t length) {
 }
 
 }  // namespace
+}  // namespace co::os_command
 
 extern "C" {
 
-const CO_OBJ_TYPE_EX COTOsCommand = {{command_size, init_command, read_command, write_command, COObjTypeExReset},
-                                     reset_command,
-                                     begin_command,
-                                     end_command};
-const CO_OBJ_TYPE COTOsStatus = {byte_size, co::dict::checked_by<co::rules::os_status>, read_status, nullptr, nullptr};
-const CO_OBJ_TYPE_EX COTOsReply = {
-    {reply_size, co::dict::checked_by<co::rules::os_reply>, read_reply, nullptr, COObjTypeExReset},
-    reset_reply,
-    begin_reply,
-    nullptr};
-const CO_OBJ_TYPE COTOsMode = {byte_size, co::dict::checked_by<co::rules::os_mode>, nullptr, write_mode, nullptr};
+const CO_OBJ_TYPE_EX COTOsCommand = {{co::os_command::command_size, co::os_command::init_command,
+                                      co::os_command::read_command, co::os_command::write_command, COObjTypeExReset},
+                                     co::os_command::reset_command,
+                                     co::os_command::begin_command,
+                                     co::os_command::end_command};
+const CO_OBJ_TYPE COTOsStatus = {co::os_command::byte_size, co::dict::checked_by<co::rules::os_status>,
+                                 co::os_command::read_status, nullptr, nullptr};
+const CO_OBJ_TYPE_EX COTOsReply = {{co::os_command::reply_size, co::dict::checked_by<co::rules::os_reply>,
+                                    co::os_command::read_reply, nullptr, COObjTypeExReset},
+                                   co::os_command::reset_reply,
+                                   co::os_command::begin_reply,
+                                   nullptr};
+const CO_OBJ_TYPE COTOsMode = {co::os_command::byte_size, co::dict::checked_by<co::rules::os_mode>, nullptr,
+                               co::os_command::write_mode, nullptr};
 
 CO_ERR COOsReply(CO_OS_COMMAND* os, const uint8_t* bytes, uint16_t length) {
   if (os == nullptr || bytes == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  if ((os->Phase & busy) == 0) {
+  if ((os->Phase & co::os_command::busy) == 0) {
     return CO_ERR_OBJ_STATE;
   }
   if (os->Reply == nullptr || length > os->ReplySize - os->ReplyLength) {
     return CO_ERR_OBJ_SIZE;
   }
-  wire::copy(os->Reply + os->ReplyLength, bytes, length);
+  co::wire::copy(os->Reply + os->ReplyLength, bytes, length);
   os->ReplyLength = static_cast<uint16_t>(os->ReplyLength + length);
   return CO_ERR_NONE;
 }
@@ -376,13 +379,13 @@ CO_ERR COOsEnd(CO_NODE* node, CO_OS_COMMAND* os, bool failed) {
   if (node == nullptr || os == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  if ((os->Phase & busy) == 0) {
+  if ((os->Phase & co::os_command::busy) == 0) {
     return CO_ERR_OBJ_STATE;
   }
-  end_one(*os, failed);
+  co::os_command::end_one(*os, failed);
   if (os->Phase == 0) {
-    run(*node, *os);
-    event::run_deferred(*node);
+    co::os_command::run(*node, *os);
+    co::event::run_deferred(*node);
   }
   return CO_ERR_NONE;
 }

@@ -12,9 +12,9 @@
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
 
+namespace co::os_prompt {
 namespace {
 
-using namespace co;
 using event::Outlet;
 
 constexpr uint16_t index_prompt = 0x1026;
@@ -174,28 +174,32 @@ bool fits(const CO_OS_OUTPUT& output, uint16_t length) {
 }
 
 }  // namespace
+}  // namespace co::os_prompt
 
 extern "C" {
 
-const CO_OBJ_TYPE COTOsStdin = {size, co::dict::checked_by<co::rules::os_input>, nullptr, write, nullptr};
-const CO_OBJ_TYPE COTOsStdout = {size, init_output, read, nullptr, nullptr};
+const CO_OBJ_TYPE COTOsStdin = {co::os_prompt::size, co::dict::checked_by<co::rules::os_input>, nullptr,
+                                co::os_prompt::write, nullptr};
+const CO_OBJ_TYPE COTOsStdout = {co::os_prompt::size, co::os_prompt::init_output, co::os_prompt::read, nullptr,
+                                 nullptr};
 
 CO_ERR COOsPrint(CO_NODE* node, uint8_t sub, const uint8_t* text, uint16_t length) {
-  if (node == nullptr || node->Dict.Node == nullptr || text == nullptr || sub < sub_out || sub > sub_err) {
+  if (node == nullptr || node->Dict.Node == nullptr || text == nullptr || sub < co::os_prompt::sub_out ||
+      sub > co::os_prompt::sub_err) {
     return CO_ERR_BAD_ARG;
   }
-  CO_OBJ* const obj = dict::find(*node, CO_DEV(index_prompt, sub));
-  CO_OS_OUTPUT* const output = obj != nullptr && obj->Type == CO_TOS_STDOUT ? output_of(*obj) : nullptr;
+  CO_OBJ* const obj = co::dict::find(*node, CO_DEV(co::os_prompt::index_prompt, sub));
+  CO_OS_OUTPUT* const output = obj != nullptr && obj->Type == CO_TOS_STDOUT ? co::os_prompt::output_of(*obj) : nullptr;
   if (output == nullptr) {
     return CO_ERR_OBJ_NOT_FOUND;
   }
-  if (!fits(*output, length)) {
+  if (!co::os_prompt::fits(*output, length)) {
     return CO_ERR_OBJ_SIZE;
   }
-  append(*output, text, length);
-  if (length != 0 && output->Node == node && !tmr::is_running(output->Tmr)) {
-    on_time(output);
-    event::run_deferred(*node);
+  co::os_prompt::append(*output, text, length);
+  if (length != 0 && output->Node == node && !co::tmr::is_running(output->Tmr)) {
+    co::os_prompt::on_time(output);
+    co::event::run_deferred(*node);
   }
   return CO_ERR_NONE;
 }

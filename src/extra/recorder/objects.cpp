@@ -8,9 +8,8 @@
 
 #include <stddef.h>
 
+namespace co::recorder_objects {
 namespace {
-
-using namespace co;
 
 // Member of CO_RECORDER_CONFIG that an entry contains.
 struct Member {
@@ -146,12 +145,16 @@ CO_ERR write_enable(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 }
 
 }  // namespace
+}  // namespace co::recorder_objects
 
 extern "C" {
 
-const CO_OBJ_TYPE COTRecConfig = {config_size, init_config, read_config, write_config, nullptr};
-const CO_OBJ_TYPE COTRecData = {data_size, init_data, read_data, write_data, nullptr};
-const CO_OBJ_TYPE COTRecEnable = {enable_size, init_enable, read_enable, write_enable, nullptr};
+const CO_OBJ_TYPE COTRecConfig = {co::recorder_objects::config_size, co::recorder_objects::init_config,
+                                  co::recorder_objects::read_config, co::recorder_objects::write_config, nullptr};
+const CO_OBJ_TYPE COTRecData = {co::recorder_objects::data_size, co::recorder_objects::init_data,
+                                co::recorder_objects::read_data, co::recorder_objects::write_data, nullptr};
+const CO_OBJ_TYPE COTRecEnable = {co::recorder_objects::enable_size, co::recorder_objects::init_enable,
+                                  co::recorder_objects::read_enable, co::recorder_objects::write_enable, nullptr};
 
 }  // extern "C"
 

@@ -10,9 +10,8 @@
 
 #if USE_RECORDER
 
+namespace co::recorder_plot {
 namespace {
-
-using namespace co;
 
 using Plot = CO_RECORDER_PLOT;
 
@@ -207,7 +206,12 @@ CO_ERR end(CO_OBJ* obj, CO_NODE*, CO_OBJ_TRANSFER, uint32_t abort) {
 }
 
 }  // namespace
+}  // namespace co::recorder_plot
 
-extern "C" const CO_OBJ_TYPE_EX COTRecPlot = {{size, init, read, nullptr, COObjTypeExReset}, reset, begin, end};
+extern "C" const CO_OBJ_TYPE_EX COTRecPlot = {
+    {co::recorder_plot::size, co::recorder_plot::init, co::recorder_plot::read, nullptr, COObjTypeExReset},
+    co::recorder_plot::reset,
+    co::recorder_plot::begin,
+    co::recorder_plot::end};
 
 #endif

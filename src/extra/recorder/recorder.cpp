@@ -313,8 +313,6 @@ void on_remap(CO_NODE& node) {
 
 }  // namespace co::recorder
 
-using namespace co;
-
 extern "C" {
 
 CO_ERR CORecorderStart(CO_NODE* node, CO_RECORDER* recorder) {
@@ -323,27 +321,27 @@ CO_ERR CORecorderStart(CO_NODE* node, CO_RECORDER* recorder) {
   if (node->Dict.Node == nullptr || node->Nmt.Mode == CO_INVALID) {
     return CO_ERR_BAD_ARG;
   }
-  const bool is_reading = recorder::is_listed(*node, *recorder) && recorder->Plot.Reading != 0;
-  return is_reading ? CO_ERR_OBJ_STATE : recorder::start(*node, *recorder);
+  const bool is_reading = co::recorder::is_listed(*node, *recorder) && recorder->Plot.Reading != 0;
+  return is_reading ? CO_ERR_OBJ_STATE : co::recorder::start(*node, *recorder);
 }
 
 CO_ERR CORecorderConfigure(CO_RECORDER* recorder, const CO_RECORDER_CONFIG* config) {
-  if (config == nullptr || !recorder::is_started(recorder) || recorder->Node->Nmt.Mode == CO_INVALID) {
+  if (config == nullptr || !co::recorder::is_started(recorder) || recorder->Node->Nmt.Mode == CO_INVALID) {
     return CO_ERR_BAD_ARG;
   }
-  return recorder::configure(*recorder, *config);
+  return co::recorder::configure(*recorder, *config);
 }
 
 CO_ERR CORecorderSample(CO_RECORDER* recorder) {
-  if (!recorder::is_started(recorder)) {
+  if (!co::recorder::is_started(recorder)) {
     return CO_ERR_BAD_ARG;
   }
-  const event::Call call(*recorder->Node);
-  return recorder::sample(*recorder);
+  const co::event::Call call(*recorder->Node);
+  return co::recorder::sample(*recorder);
 }
 
 CO_ERR CORecorderClear(CO_RECORDER* recorder) {
-  return recorder::is_started(recorder) ? recorder::clear(*recorder) : CO_ERR_BAD_ARG;
+  return co::recorder::is_started(recorder) ? co::recorder::clear(*recorder) : CO_ERR_BAD_ARG;
 }
 
 uint32_t CORecorderCount(const CO_RECORDER* recorder) { return recorder != nullptr ? recorder->Held : 0; }
@@ -355,7 +353,7 @@ CO_ERR CORecorderGet(const CO_RECORDER* recorder, uint32_t number, CO_RECORDER_P
   if (number >= recorder->Held) {
     return CO_ERR_OBJ_NO_DATA;
   }
-  *point = recorder::point_at(*recorder, recorder->Held - number);
+  *point = co::recorder::point_at(*recorder, recorder->Held - number);
   return CO_ERR_NONE;
 }
 

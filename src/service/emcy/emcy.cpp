@@ -318,28 +318,26 @@ uint32_t identifier(CO_NODE& node) {
 
 }  // namespace co::emcy
 
-using namespace co;
-
 extern "C" {
 
-void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) { emcy::change(emcy, err, true, usr); }
+void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) { co::emcy::change(emcy, err, true, usr); }
 
-void COEmcyClr(CO_EMCY* emcy, uint8_t err) { emcy::change(emcy, err, false, nullptr); }
+void COEmcyClr(CO_EMCY* emcy, uint8_t err) { co::emcy::change(emcy, err, false, nullptr); }
 
 int16_t COEmcyGet(CO_EMCY* emcy, uint8_t err) {
   ASSERT_PTR_ERR(emcy, -1);
   ASSERT_PTR_ERR(emcy->Node, -1);
-  if (err >= emcy::table_length(*emcy)) {
+  if (err >= co::emcy::table_length(*emcy)) {
     return -1;
   }
-  return emcy::is_set(*emcy, err) ? 1 : 0;
+  return co::emcy::is_set(*emcy, err) ? 1 : 0;
 }
 
 int16_t COEmcyCnt(CO_EMCY* emcy) {
   ASSERT_PTR_ERR(emcy, -1);
   int16_t number = 0;
   for (uint16_t err = 0; err < CO_EMCY_N; ++err) {
-    number = static_cast<int16_t>(number + (emcy::is_set(*emcy, err) ? 1 : 0));
+    number = static_cast<int16_t>(number + (co::emcy::is_set(*emcy, err) ? 1 : 0));
   }
   return number;
 }
@@ -348,22 +346,22 @@ void COEmcyReset(CO_EMCY* emcy, uint8_t silent) {
   ASSERT_PTR_FATAL(emcy);
   ASSERT_PTR_FATAL(emcy->Node);
   for (uint16_t err = 0; silent == 0 && err < CO_EMCY_N; ++err) {
-    if (emcy::is_set(*emcy, err)) {
+    if (co::emcy::is_set(*emcy, err)) {
       COEmcyClr(emcy, static_cast<uint8_t>(err));
     }
   }
   if (COEmcyCnt(emcy) != 0) {
-    emcy::clear_errors(*emcy);
-    emcy::update_register(*emcy);
-    emcy::show_bits(*emcy);
+    co::emcy::clear_errors(*emcy);
+    co::emcy::update_register(*emcy);
+    co::emcy::show_bits(*emcy);
   }
-  emcy::finish_call(*emcy->Node);
+  co::emcy::finish_call(*emcy->Node);
 }
 
 void COEmcyHistReset(CO_EMCY* emcy) {
   ASSERT_PTR_FATAL(emcy);
   ASSERT_PTR_FATAL(emcy->Node);
-  emcy::clear_history(*emcy->Node);
+  co::emcy::clear_history(*emcy->Node);
 }
 
 }  // extern "C"

@@ -59,18 +59,16 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, [[maybe_unused]] uint16_t n
 
 }  // namespace co::gfc
 
-using namespace co;
-
 extern "C" {
 
 // Default callbacks.
 WEAK void COGfcReceived(CO_NODE*) {}
 
-const CO_OBJ_TYPE COTGfc = parameter<1, rules::global_fail_safe, gfc::may_use, gfc::apply>;
+const CO_OBJ_TYPE COTGfc = co::parameter<1, co::rules::global_fail_safe, co::gfc::may_use, co::gfc::apply>;
 
 CO_ERR COGfcSend(CO_NODE* node) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  return gfc::send(*node);
+  return co::gfc::send(*node);
 }
 
 }  // extern "C"

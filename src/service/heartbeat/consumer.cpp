@@ -242,27 +242,26 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
 
 }  // namespace co::heartbeat
 
-using namespace co;
-
 extern "C" {
 
-const CO_OBJ_TYPE COTNmtHbCons = {heartbeat::size, heartbeat::init, heartbeat::read, heartbeat::write, nullptr};
+const CO_OBJ_TYPE COTNmtHbCons = {co::heartbeat::size, co::heartbeat::init, co::heartbeat::read, co::heartbeat::write,
+                                  nullptr};
 
 CO_ERR CONmtHbConsActivate(CO_HBCONS* hbc, uint16_t time, uint8_t nodeid) {
   ASSERT_PTR_ERR(hbc, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(hbc->Node, CO_ERR_BAD_ARG);
   CO_NODE& node = *hbc->Node;
-  if (!port::is_initialised(node)) {
+  if (!co::port::is_initialised(node)) {
     return CO_ERR_BAD_ARG;
   }
-  const event::Call call(node);
-  return heartbeat::change(node, *hbc, time, nodeid);
+  const co::event::Call call(node);
+  return co::heartbeat::change(node, *hbc, time, nodeid);
 }
 
 int16_t CONmtGetHbEvents(CO_NMT* nmt, uint8_t nodeId) {
   ASSERT_PTR_FATAL_ERR(nmt, -1);
   ASSERT_PTR_FATAL_ERR(nmt->Node, -1);
-  const CO_HB_WATCH* const watch = heartbeat::find(*nmt->Node, nodeId);
+  const CO_HB_WATCH* const watch = co::heartbeat::find(*nmt->Node, nodeId);
   if (watch == nullptr) {
     return -1;
   }
@@ -274,7 +273,7 @@ int16_t CONmtGetHbEvents(CO_NMT* nmt, uint8_t nodeId) {
 CO_MODE CONmtLastHbState(CO_NMT* nmt, uint8_t nodeId) {
   ASSERT_PTR_FATAL_ERR(nmt, CO_INVALID);
   ASSERT_PTR_FATAL_ERR(nmt->Node, CO_INVALID);
-  const CO_HB_WATCH* const watch = heartbeat::find(*nmt->Node, nodeId);
+  const CO_HB_WATCH* const watch = co::heartbeat::find(*nmt->Node, nodeId);
   return watch == nullptr ? CO_INVALID : watch->Cons->State;
 }
 

@@ -185,8 +185,6 @@ void resolve(CO_NODE& node, event::Fault fault, uint32_t) {
 
 }  // namespace co::led
 
-using namespace co;
-
 extern "C" {
 
 // Default callbacks.
@@ -194,7 +192,7 @@ WEAK void COLedChange(CO_NODE*, uint8_t) {}
 
 uint8_t COLedPattern(const CO_LED_STATE* state, uint32_t ms) {
   ASSERT_PTR_ERR(state, 0);
-  return led::leds_at(*state, ms);
+  return co::led::leds_at(*state, ms);
 }
 
 void COLedStart(CO_NODE* node) {
@@ -205,14 +203,14 @@ void COLedStart(CO_NODE* node) {
   }
   node->Led.On = 1;
   node->Led.Shown = never;
-  led::update(*node);
+  co::led::update(*node);
 }
 
 void COLedSet(CO_NODE* node, uint8_t what, bool on) {
   ASSERT_PTR_FATAL(node);
   CO_LED& led = node->Led;
   led.Set = static_cast<uint8_t>(on ? led.Set | what : led.Set & ~what);
-  led::update(*node);
+  co::led::update(*node);
 }
 
 }  // extern "C"

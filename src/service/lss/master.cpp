@@ -305,9 +305,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 
 }  // namespace co::lss_master
 
-using namespace co;
-using namespace co::lss_master;
-using wire::Lss;
+using co::wire::Lss;
 
 extern "C" {
 
@@ -324,8 +322,8 @@ CO_ERR COLssmCancel(CO_LSSM* lssm) {
   if (lssm == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  if (state_of(*lssm) != State::idle) {
-    finish(*lssm, CO_LSSM_CANCELLED);
+  if (co::lss_master::state_of(*lssm) != co::lss_master::State::idle) {
+    co::lss_master::finish(*lssm, CO_LSSM_CANCELLED);
   }
   return CO_ERR_NONE;
 }
@@ -333,58 +331,67 @@ CO_ERR COLssmCancel(CO_LSSM* lssm) {
 CO_ERR COLssmSwitchGlobal(CO_LSSM* lssm, uint8_t state, CO_LSSM_CALLBACK callback) {
   const uint32_t number = state;
   const bool is_possible = state <= CO_LSSM_CONFIGURATION;
-  return start(lssm, callback, {first(Lss::switch_global), 1, Lss{}, State::leaving}, is_possible ? &number : nullptr);
+  return co::lss_master::start(lssm, callback,
+                               {co::lss_master::first(Lss::switch_global), 1, Lss{}, co::lss_master::State::leaving},
+                               is_possible ? &number : nullptr);
 }
 
 CO_ERR COLssmSwitchSelective(CO_LSSM* lssm, const uint32_t address[CO_LSSM_PARTS], CO_LSSM_CALLBACK callback) {
-  const Request request = {first(Lss::switch_selective), wire::lss_address_parts, Lss::selected, State::answer};
+  const co::lss_master::Request request = {co::lss_master::first(Lss::switch_selective), co::wire::lss_address_parts,
+                                           Lss::selected, co::lss_master::State::answer};
   return start(lssm, callback, request, address);
 }
 
 CO_ERR COLssmConfigureNodeId(CO_LSSM* lssm, uint8_t nodeId, CO_LSSM_CALLBACK callback) {
-  return start(lssm, callback, first(Lss::configure_node_id), wire::may_be_configured(nodeId), nodeId);
+  return co::lss_master::start(lssm, callback, co::lss_master::first(Lss::configure_node_id),
+                               co::wire::may_be_configured(nodeId), nodeId);
 }
 
 CO_ERR COLssmConfigureBitTiming(CO_LSSM* lssm, uint32_t baudrate, CO_LSSM_CALLBACK callback) {
-  const uint8_t index = wire::index_of_bit_rate(baudrate);
-  const bool is_possible = index != wire::lss_bit_rates;
-  return start(lssm, callback, first(Lss::configure_bit_timing), is_possible, uint32_t{index} << 8);
+  const uint8_t index = co::wire::index_of_bit_rate(baudrate);
+  const bool is_possible = index != co::wire::lss_bit_rates;
+  return co::lss_master::start(lssm, callback, co::lss_master::first(Lss::configure_bit_timing), is_possible,
+                               uint32_t{index} << 8);
 }
 
 CO_ERR COLssmActivateBitTiming(CO_LSSM* lssm, uint16_t delay, uint32_t baudrate, CO_LSSM_CALLBACK callback) {
-  const CO_ERR err = check(lssm, callback, true);
+  const CO_ERR err = co::lss_master::check(lssm, callback, true);
   if (err != CO_ERR_NONE) {
     return err;
   }
   lssm->Baudrate = baudrate;
-  return activate(*lssm, callback, delay);
+  return co::lss_master::activate(*lssm, callback, delay);
 }
 
 CO_ERR COLssmStore(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) {
-  return start(lssm, callback, first(Lss::store), true, 0);
+  return co::lss_master::start(lssm, callback, co::lss_master::first(Lss::store), true, 0);
 }
 
 CO_ERR COLssmInquire(CO_LSSM* lssm, uint8_t which, CO_LSSM_CALLBACK callback) {
-  return start(lssm, callback, first(Lss::inquire) + which, which < wire::lss_address_parts, 0);
+  return co::lss_master::start(lssm, callback, co::lss_master::first(Lss::inquire) + which,
+                               which < co::wire::lss_address_parts, 0);
 }
 
 CO_ERR COLssmInquireNodeId(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) {
-  return start(lssm, callback, first(Lss::inquire_node_id), true, 0);
+  return co::lss_master::start(lssm, callback, co::lss_master::first(Lss::inquire_node_id), true, 0);
 }
 
 CO_ERR COLssmIdentify(CO_LSSM* lssm, const uint32_t range[6], CO_LSSM_CALLBACK callback) {
-  const Request request = {first(Lss::identify), wire::lss_identify_parts, Lss::identified, State::found};
+  const co::lss_master::Request request = {co::lss_master::first(Lss::identify), co::wire::lss_identify_parts,
+                                           Lss::identified, co::lss_master::State::found};
   return start(lssm, callback, request, range);
 }
 
 CO_ERR COLssmIdentifyUnconfigured(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) {
   constexpr uint32_t none = 0;
-  return start(lssm, callback, {first(Lss::identify_unconfigured), 1, Lss::unconfigured, State::found}, &none);
+  return co::lss_master::start(
+      lssm, callback,
+      {co::lss_master::first(Lss::identify_unconfigured), 1, Lss::unconfigured, co::lss_master::State::found}, &none);
 }
 
 CO_ERR COLssmFastscan(CO_LSSM* lssm, const uint32_t* known, uint8_t num, CO_LSSM_CALLBACK callback) {
-  const CO_ERR err = check(lssm, callback, num <= CO_LSSM_PARTS && (num == 0 || known != nullptr));
-  return err == CO_ERR_NONE ? begin_scan(*lssm, known, num, callback) : err;
+  const CO_ERR err = co::lss_master::check(lssm, callback, num <= CO_LSSM_PARTS && (num == 0 || known != nullptr));
+  return err == CO_ERR_NONE ? co::lss_master::begin_scan(*lssm, known, num, callback) : err;
 }
 
 }  // extern "C"

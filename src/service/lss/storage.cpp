@@ -6,9 +6,8 @@
 
 #if USE_LSS && USE_PARA
 
+namespace co::lss {
 namespace {
-
-using namespace co;
 
 struct Stored {
   uint32_t baud;
@@ -21,6 +20,7 @@ store::Record record_at(uint32_t offset) {
 }
 
 }  // namespace
+}  // namespace co::lss
 
 extern "C" {
 
@@ -28,30 +28,30 @@ CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nod
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(baud, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(nodeId, CO_ERR_BAD_ARG);
-  Stored stored = {};
+  co::lss::Stored stored = {};
   // Resets that other threads have requested during the memory access are deferred: event::run_deferred() runs them.
-  store::Target target = {reinterpret_cast<uint8_t*>(&stored), sizeof stored, false};
-  const store::Found found = store::of(*node).load(*node, record_at(offset), target);
-  event::run_deferred(*node);
-  if (found == store::Found::data) {
+  co::store::Target target = {reinterpret_cast<uint8_t*>(&stored), sizeof stored, false};
+  const co::store::Found found = co::store::of(*node).load(*node, co::lss::record_at(offset), target);
+  co::event::run_deferred(*node);
+  if (found == co::store::Found::data) {
     *baud = stored.baud;
     *nodeId = static_cast<uint8_t>(stored.node_id);
   }
-  if (found == store::Found::no_room) {
+  if (found == co::store::Found::no_room) {
     return CO_ERR_PARA_STORE;
   }
-  return found == store::Found::lost ? CO_ERR_IF_NVM_READ : CO_ERR_NONE;
+  return found == co::store::Found::lost ? CO_ERR_IF_NVM_READ : CO_ERR_NONE;
 }
 
 CO_ERR COLssNvmStore(CO_NODE* node, uint32_t offset, uint32_t baud, uint8_t nodeId) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  if (!port::nvm_exists(*node)) {
+  if (!co::port::nvm_exists(*node)) {
     return CO_ERR_LSS_NO_STORE;
   }
-  const Stored stored = {baud, nodeId};
-  const CO_ERR err =
-      store::of(*node).save(*node, record_at(offset), reinterpret_cast<const uint8_t*>(&stored), store::Cause::command);
-  event::run_deferred(*node);
+  const co::lss::Stored stored = {baud, nodeId};
+  const CO_ERR err = co::store::of(*node).save(*node, co::lss::record_at(offset),
+                                               reinterpret_cast<const uint8_t*>(&stored), co::store::Cause::command);
+  co::event::run_deferred(*node);
   return err;
 }
 

@@ -156,16 +156,14 @@ CO_ERR resolve_dispatch(CO_NODE& node) {
 
 }  // namespace co::mpdo
 
-using namespace co;
-
 extern "C" {
 
-const CO_OBJ_TYPE COTPdoScan = {mpdo::size_entry<COTInt32>, dict::checked_by<rules::pdo_scan>,
-                                mpdo::read_entry<COTInt32>, mpdo::write_entry<uint32_t, COTInt32, mpdo::resolve_scan>,
-                                nullptr};
-const CO_OBJ_TYPE COTPdoDispatch = {mpdo::size_entry<COTInt64>, dict::checked_by<rules::pdo_dispatch>,
-                                    mpdo::read_entry<COTInt64>,
-                                    mpdo::write_entry<uint64_t, COTInt64, mpdo::resolve_dispatch>, nullptr};
+const CO_OBJ_TYPE COTPdoScan = {co::mpdo::size_entry<COTInt32>, co::dict::checked_by<co::rules::pdo_scan>,
+                                co::mpdo::read_entry<COTInt32>,
+                                co::mpdo::write_entry<uint32_t, COTInt32, co::mpdo::resolve_scan>, nullptr};
+const CO_OBJ_TYPE COTPdoDispatch = {co::mpdo::size_entry<COTInt64>, co::dict::checked_by<co::rules::pdo_dispatch>,
+                                    co::mpdo::read_entry<COTInt64>,
+                                    co::mpdo::write_entry<uint64_t, COTInt64, co::mpdo::resolve_dispatch>, nullptr};
 
 }  // extern "C"
 

@@ -80,18 +80,16 @@ CO_OBJ* object_at(CO_NODE& node, uint16_t entry) { return entry < node.Dict.Num 
 
 }  // namespace co::mpdo
 
-using namespace co;
-
 extern "C" CO_ERR COTPdoSendTo(CO_NODE* node, uint16_t num, uint8_t node_id, uint32_t key, uint32_t value) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  if (node_id > wire::mpdo_node_id) {
+  if (node_id > co::wire::mpdo_node_id) {
     return CO_ERR_BAD_ARG;
   }
-  const event::Call call(*node);
+  const co::event::Call call(*node);
   if constexpr (CO_TPDO_N == 0) {
     return CO_ERR_TPDO_NUM_TRIGGER;
   } else {
-    return mpdo::send_to(*node, num, node_id, key, value);
+    return co::mpdo::send_to(*node, num, node_id, key, value);
   }
 }
 

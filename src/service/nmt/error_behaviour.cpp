@@ -40,18 +40,17 @@ CO_MODE mode_for_switch(CO_NODE& node) {
 
 }  // namespace co::error_behaviour
 
-using namespace co;
-
 extern "C" {
 
-const CO_OBJ_TYPE COTErrorBehaviour = parameter<1, rules::error_behaviour, at_most<CO_ERROR_BEHAVIOUR_STOP>>;
+const CO_OBJ_TYPE COTErrorBehaviour =
+    co::parameter<1, co::rules::error_behaviour, co::at_most<CO_ERROR_BEHAVIOUR_STOP>>;
 
 CO_ERR COErrorBehaviour(CO_NODE* node, uint8_t sub) {
-  if (node == nullptr || sub == 0 || sub > rules::error_behaviour.last_sub) {
+  if (node == nullptr || sub == 0 || sub > co::rules::error_behaviour.last_sub) {
     return CO_ERR_BAD_ARG;
   }
-  const bool done = error_behaviour::react(*node, sub);
-  event::run_deferred(*node);
+  const bool done = co::error_behaviour::react(*node, sub);
+  co::event::run_deferred(*node);
   return done ? CO_ERR_NONE : CO_ERR_NMT_MODE;
 }
 

@@ -51,15 +51,13 @@ bool is_command(CO_NMT_COMMAND command) {
 }  // namespace
 }  // namespace co::nmt
 
-using namespace co;
-
 extern "C" CO_ERR CONmtCommand(CO_NMT* nmt, CO_NMT_COMMAND command, uint8_t nodeId) {
   ASSERT_PTR_ERR(nmt, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(nmt->Node, CO_ERR_BAD_ARG);
-  if (!nmt::is_command(command) || nodeId > 127) {
+  if (!co::nmt::is_command(command) || nodeId > 127) {
     return CO_ERR_BAD_ARG;
   }
-  return nmt::command(*nmt->Node, command, nodeId);
+  return co::nmt::command(*nmt->Node, command, nodeId);
 }
 
 #endif

@@ -7,9 +7,9 @@
 #include "service/pdo/multiplex.hpp"
 #include "wire/cob_id.hpp"
 
+namespace co::pdo_objects {
 namespace {
 
-using namespace co;
 using pdo::Direction;
 using pdo::MappedBy;
 
@@ -134,15 +134,20 @@ CO_ERR may_be_mapped(CO_NODE& node, CO_OBJ& obj, uint32_t value, uint32_t) {
 }
 
 }  // namespace
+}  // namespace co::pdo_objects
 
 extern "C" {
 
-const CO_OBJ_TYPE COTPdoId = parameter<integer::cob_id, rules::pdo_cob_id, may_have_id, apply>;
-const CO_OBJ_TYPE COTPdoType = parameter<1, rules::pdo_type, may_have_type, apply>;
-const CO_OBJ_TYPE COTPdoInhibit = parameter<2, rules::pdo_inhibit, may_change<UINT16_MAX>>;
-const CO_OBJ_TYPE COTPdoEvent = parameter<2, rules::pdo_event, fits_timer<CO_TMR_UNIT_1MS>, apply_event>;
-const CO_OBJ_TYPE COTPdoStart = parameter<1, rules::pdo_start, may_change<pdo::last_synchronous_type>>;
-const CO_OBJ_TYPE COTPdoNum = parameter<1, rules::pdo_number, may_map>;
-const CO_OBJ_TYPE COTPdoMap = parameter<4, rules::pdo_mapping, may_be_mapped>;
+const CO_OBJ_TYPE COTPdoId =
+    co::parameter<co::integer::cob_id, co::rules::pdo_cob_id, co::pdo_objects::may_have_id, co::pdo_objects::apply>;
+const CO_OBJ_TYPE COTPdoType =
+    co::parameter<1, co::rules::pdo_type, co::pdo_objects::may_have_type, co::pdo_objects::apply>;
+const CO_OBJ_TYPE COTPdoInhibit = co::parameter<2, co::rules::pdo_inhibit, co::pdo_objects::may_change<UINT16_MAX>>;
+const CO_OBJ_TYPE COTPdoEvent =
+    co::parameter<2, co::rules::pdo_event, co::fits_timer<CO_TMR_UNIT_1MS>, co::pdo_objects::apply_event>;
+const CO_OBJ_TYPE COTPdoStart =
+    co::parameter<1, co::rules::pdo_start, co::pdo_objects::may_change<co::pdo::last_synchronous_type>>;
+const CO_OBJ_TYPE COTPdoNum = co::parameter<1, co::rules::pdo_number, co::pdo_objects::may_map>;
+const CO_OBJ_TYPE COTPdoMap = co::parameter<4, co::rules::pdo_mapping, co::pdo_objects::may_be_mapped>;
 
 }  // extern "C"

@@ -7,8 +7,7 @@
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/multiplex.hpp"
 
-using namespace co;
-
+namespace co::pdo {
 namespace {
 
 // Returns whether a PDO has this number. A function, because a comparison with a count of 0 PDOs causes a compiler
@@ -23,49 +22,50 @@ bool is_entry(const CO_NODE& node, const CO_OBJ* obj) {
 }
 
 }  // namespace
+}  // namespace co::pdo
 
 extern "C" {
 
 void COTPdoTrigPdo(CO_TPDO* tpdo, uint16_t num) {
   ASSERT_PTR_FATAL(tpdo);
   ASSERT_PTR_FATAL(tpdo->Node);
-  error::report(*tpdo->Node, COTPdoRequest(tpdo->Node, num), pdo::key_of_tpdo(num));
+  co::error::report(*tpdo->Node, COTPdoRequest(tpdo->Node, num), co::pdo::key_of_tpdo(num));
 }
 
 void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj) {
   ASSERT_PTR_FATAL(tpdo);
   ASSERT_PTR_FATAL(tpdo->Node);
   CO_NODE& node = *tpdo->Node;
-  const event::Call call(node);
-  const bool is_known = is_entry(node, obj);
+  const co::event::Call call(node);
+  const bool is_known = co::pdo::is_entry(node, obj);
   const uint32_t key = is_known ? obj->Key : 0;
-  error::report(node, is_known ? pdo::request_object(node, *obj) : CO_ERR_TPDO_OBJ_TRIGGER, key);
+  co::error::report(node, is_known ? co::pdo::request_object(node, *obj) : CO_ERR_TPDO_OBJ_TRIGGER, key);
 }
 
 CO_ERR COTPdoRequest(CO_NODE* node, uint16_t num) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  if (!is_pdo(num, CO_TPDO_N) || !port::is_initialised(*node)) {
+  if (!co::pdo::is_pdo(num, CO_TPDO_N) || !co::port::is_initialised(*node)) {
     return CO_ERR_TPDO_NUM_TRIGGER;
   }
-  const event::Call call(*node);
-  mpdo::mark_all(pdo::tpdos(*node).first[num]);
-  return pdo::request(*node, num);
+  const co::event::Call call(*node);
+  co::mpdo::mark_all(co::pdo::tpdos(*node).first[num]);
+  return co::pdo::request(*node, num);
 }
 
 bool CORPdoWasReceived(CO_NODE* node, uint16_t num) {
-  return node != nullptr && is_pdo(num, CO_RPDO_N) && pdo::was_received(*node, num);
+  return node != nullptr && co::pdo::is_pdo(num, CO_RPDO_N) && co::pdo::was_received(*node, num);
 }
 
 bool COTPdoWasSent(CO_NODE* node, uint16_t num) {
-  return node != nullptr && is_pdo(num, CO_TPDO_N) && pdo::was_sent(*node, num);
+  return node != nullptr && co::pdo::is_pdo(num, CO_TPDO_N) && co::pdo::was_sent(*node, num);
 }
 
 bool CORPdoObjWasReceived(CO_NODE* node, const CO_OBJ* obj) {
-  return node != nullptr && is_entry(*node, obj) && pdo::was_received(*node, *obj);
+  return node != nullptr && co::pdo::is_entry(*node, obj) && co::pdo::was_received(*node, *obj);
 }
 
 bool COTPdoObjWasSent(CO_NODE* node, const CO_OBJ* obj) {
-  return node != nullptr && is_entry(*node, obj) && pdo::was_sent(*node, *obj);
+  return node != nullptr && co::pdo::is_entry(*node, obj) && co::pdo::was_sent(*node, *obj);
 }
 
 }  // extern "C"

@@ -287,26 +287,24 @@ bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
 
 }  // namespace co::sdo::client
 
-using namespace co;
-
 extern "C" {
 
 CO_CSDO* COCSdoFind(CO_NODE* node, uint8_t num) {
   if (node == nullptr || num >= CO_CSDO_N || node->CSdo[num].Node == nullptr) {
     return nullptr;
   }
-  sdo::client::refresh(node->CSdo[num]);
+  co::sdo::client::refresh(node->CSdo[num]);
   return node->CSdo[num].State == CO_CSDO_STATE_INVALID ? nullptr : &node->CSdo[num];
 }
 
 CO_ERR COCSdoRequestUpload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                            uint32_t timeout) {
-  return sdo::client::request(csdo, key, buf, size, callback, timeout, 0);
+  return co::sdo::client::request(csdo, key, buf, size, callback, timeout, 0);
 }
 
 CO_ERR COCSdoRequestDownload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                              uint32_t timeout) {
-  return sdo::client::request(csdo, key, buf, size, callback, timeout, sdo::download | sdo::sized);
+  return co::sdo::client::request(csdo, key, buf, size, callback, timeout, co::sdo::download | co::sdo::sized);
 }
 
 CO_ERR COCSdoCancel(CO_CSDO* csdo) {
@@ -316,19 +314,19 @@ CO_ERR COCSdoCancel(CO_CSDO* csdo) {
   if (csdo->State != CO_CSDO_STATE_BUSY) {
     return CO_ERR_SDO_OFF;
   }
-  if constexpr (sdo::client::has_own) {
-    if (sdo::client::cancel_running_own_access(*csdo)) {
+  if constexpr (co::sdo::client::has_own) {
+    if (co::sdo::client::cancel_running_own_access(*csdo)) {
       return CO_ERR_NONE;
     }
   }
-  sdo::client::abort_transfer(*csdo, Abort::local_control);
+  co::sdo::client::abort_transfer(*csdo, co::Abort::local_control);
   return CO_ERR_NONE;
 }
 
 uint32_t COCSdoGetNum(const CO_CSDO* csdo) { return csdo == nullptr ? 0 : csdo->Flow.Num; }
 
 uint32_t COCSdoGetTotal(const CO_CSDO* csdo) {
-  return csdo == nullptr || !sdo::has(csdo->Flow, sdo::sized) ? 0 : csdo->Flow.Size;
+  return csdo == nullptr || !co::sdo::has(csdo->Flow, co::sdo::sized) ? 0 : csdo->Flow.Size;
 }
 
 }  // extern "C"

@@ -8,9 +8,8 @@
 #include "dictionary/types/integer.hpp"
 #include "wire/cob_id.hpp"
 
+namespace co::sdo_id {
 namespace {
-
-using namespace co;
 
 // Returns whether a valid COB-ID is allowed. A client may use the CAN-IDs of another node's default SDO server.
 bool may_use(const CO_OBJ& obj, uint32_t cob_id) {
@@ -30,5 +29,7 @@ CO_ERR may_replace(CO_NODE&, CO_OBJ& obj, uint32_t value, uint32_t before) {
 void configure(CO_NODE& node, CO_OBJ&, uint32_t, uint32_t) { event::defer(node, event::configure); }
 
 }  // namespace
+}  // namespace co::sdo_id
 
-extern "C" const CO_OBJ_TYPE COTSdoId = parameter<integer::cob_id, rules::sdo_cob_id, may_replace, configure>;
+extern "C" const CO_OBJ_TYPE COTSdoId =
+    co::parameter<co::integer::cob_id, co::rules::sdo_cob_id, co::sdo_id::may_replace, co::sdo_id::configure>;

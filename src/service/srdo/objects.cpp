@@ -5,9 +5,8 @@
 
 #if CO_SRDO_N > 0
 
+namespace co::srdo_objects {
 namespace {
-
-using namespace co;
 
 constexpr unsigned mapping_of(unsigned number) { return srdo::first_mapping + number; }
 
@@ -111,15 +110,22 @@ CO_ERR init_mapping(CO_OBJ* obj, CO_NODE* node) {
 }
 
 }  // namespace
+}  // namespace co::srdo_objects
 
 extern "C" {
 
-const CO_OBJ_TYPE COTSrdoCom = {size<communication_type>, checking(init_communication), read<communication_type>,
-                                write<communication_type, communication>, nullptr};
-const CO_OBJ_TYPE COTSrdoMap = {size<mapping_type>, checking(init_mapping), read<mapping_type>,
-                                write<mapping_type, mapping>, nullptr};
-const CO_OBJ_TYPE COTSrdoValid = parameter<1, rules::srdo_valid, may_change>;
-const CO_OBJ_TYPE COTSrdoSignature = parameter<2, rules::srdo_signature, may_change, invalidate>;
+const CO_OBJ_TYPE COTSrdoCom = {
+    co::srdo_objects::size<co::srdo_objects::communication_type>,
+    co::srdo_objects::checking(co::srdo_objects::init_communication),
+    co::srdo_objects::read<co::srdo_objects::communication_type>,
+    co::srdo_objects::write<co::srdo_objects::communication_type, co::srdo_objects::communication>, nullptr};
+const CO_OBJ_TYPE COTSrdoMap = {
+    co::srdo_objects::size<co::srdo_objects::mapping_type>, co::srdo_objects::checking(co::srdo_objects::init_mapping),
+    co::srdo_objects::read<co::srdo_objects::mapping_type>,
+    co::srdo_objects::write<co::srdo_objects::mapping_type, co::srdo_objects::mapping>, nullptr};
+const CO_OBJ_TYPE COTSrdoValid = co::parameter<1, co::rules::srdo_valid, co::srdo_objects::may_change>;
+const CO_OBJ_TYPE COTSrdoSignature =
+    co::parameter<2, co::rules::srdo_signature, co::srdo_objects::may_change, co::srdo_objects::invalidate>;
 
 }  // extern "C"
 

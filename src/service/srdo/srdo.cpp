@@ -406,8 +406,6 @@ void report_halted(CO_NODE& node) {
 
 }  // namespace co::srdo
 
-using namespace co;
-
 extern "C" {
 
 // Default callbacks.
@@ -435,14 +433,14 @@ CO_ERR COSrdoRequest(CO_NODE* node, uint8_t number) {
   if (number >= CO_SRDO_N) {
     return CO_ERR_BAD_ARG;
   }
-  const event::Call call(*node);
-  return srdo::request(*node, node->Srdo[number]);
+  const co::event::Call call(*node);
+  return co::srdo::request(*node, node->Srdo[number]);
 }
 
 CO_ERR COSrdoSignature(CO_NODE* node, uint8_t number, uint16_t* signature) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(signature, CO_ERR_BAD_ARG);
-  return number < CO_SRDO_N ? srdo::compute_signature(*node, number, *signature) : CO_ERR_BAD_ARG;
+  return number < CO_SRDO_N ? co::srdo::compute_signature(*node, number, *signature) : CO_ERR_BAD_ARG;
 }
 
 }  // extern "C"

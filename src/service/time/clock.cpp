@@ -77,21 +77,19 @@ void stop_clock(CO_NODE& node) { tmr::stop(node, node.Time.Tmr); }
 
 }  // namespace co::time
 
-using namespace co;
-
 extern "C" {
 
 CO_ERR COTimeSet(CO_NODE* node, const CO_TIME_OF_DAY* time) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(time, CO_ERR_BAD_ARG);
-  return time::set_clock(*node, *time);
+  return co::time::set_clock(*node, *time);
 }
 
 CO_ERR COTimeGet(CO_NODE* node, CO_TIME_OF_DAY* time) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(time, CO_ERR_BAD_ARG);
-  *time = time::read_clock(*node);
-  return time::is_set(*node) ? CO_ERR_NONE : CO_ERR_OBJ_NO_DATA;
+  *time = co::time::read_clock(*node);
+  return co::time::is_set(*node) ? CO_ERR_NONE : CO_ERR_OBJ_NO_DATA;
 }
 
 }  // extern "C"

@@ -85,8 +85,6 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 
 }  // namespace co::time
 
-using namespace co;
-
 extern "C" {
 
 // Default callbacks.
@@ -94,18 +92,18 @@ WEAK void COTimeUpdate(CO_NODE*, const CO_TIME_OF_DAY*) {}
 
 CO_ERR COTimeSend(CO_NODE* node) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  return time::send(*node);
+  return co::time::send(*node);
 }
 
 CO_ERR COTimeProduce(CO_NODE* node, uint32_t ms) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  const uint32_t ticks = tmr::ticks(*node, ms, CO_TMR_UNIT_1MS);
+  const uint32_t ticks = co::tmr::ticks(*node, ms, CO_TMR_UNIT_1MS);
   if (ms != 0 && ticks == 0) {
     return CO_ERR_BAD_ARG;
   }
-  tmr::stop(*node, node->Time.SendTmr);
+  co::tmr::stop(*node, node->Time.SendTmr);
   node->Time.Period = ticks;
-  time::run_producer(*node);
+  co::time::run_producer(*node);
   return CO_ERR_NONE;
 }
 
@@ -113,9 +111,8 @@ CO_ERR COTimeProduce(CO_NODE* node, uint32_t ms) {
 
 // 1012h, and the clock as an object.
 
+namespace co::time {
 namespace {
-
-using namespace co;
 
 // COB-ID TIME. [301:7.5.2.15]
 
@@ -160,11 +157,13 @@ CO_ERR write(CO_OBJ*, CO_NODE* node, void* buffer, uint32_t size) {
 }
 
 }  // namespace
+}  // namespace co::time
 
 extern "C" {
 
-const CO_OBJ_TYPE COTTimeId = parameter<integer::cob_id, rules::time_cob_id, may_replace, apply>;
-const CO_OBJ_TYPE COTTimeClock = {size, nullptr, read, write, nullptr};
+const CO_OBJ_TYPE COTTimeId =
+    co::parameter<co::integer::cob_id, co::rules::time_cob_id, co::time::may_replace, co::time::apply>;
+const CO_OBJ_TYPE COTTimeClock = {co::time::size, nullptr, co::time::read, co::time::write, nullptr};
 
 }  // extern "C"
 
