@@ -33,7 +33,7 @@ constexpr uint8_t heartbeat_state(CO_MODE mode) {
 inline constexpr uint8_t error_control_dlc = 1;
 
 // Toggle bit, bit 7 of a response to node guarding. [301:7.2.8.2.2.1]
-inline constexpr uint8_t toggle = 0x80;
+inline constexpr uint8_t guarding_toggle = 0x80;
 
 // Returns a heartbeat, or a response to node guarding with its toggle bit. mode: below CO_MODE_NUM
 inline CO_IF_FRM error_control(uint8_t node_id, CO_MODE mode, uint8_t toggle_bit = 0) {
@@ -44,7 +44,7 @@ inline CO_IF_FRM error_control(uint8_t node_id, CO_MODE mode, uint8_t toggle_bit
 
 // Returns the NMT state in an error control frame, without the toggle bit.
 constexpr uint8_t state_of(const CO_IF_FRM& error_control) {
-  return static_cast<uint8_t>(error_control.Data[0] & (toggle - 1U));
+  return static_cast<uint8_t>(error_control.Data[0] & (guarding_toggle - 1U));
 }
 
 constexpr CO_IF_FRM nmt_command(uint8_t command, uint8_t node_id) {

@@ -17,8 +17,6 @@
 namespace co::od {
 namespace {
 
-constexpr uint32_t longest_number = 8;
-
 uint8_t* bytes_at(void* memory, OD_size_t position) { return static_cast<uint8_t*>(memory) + position; }
 
 // Piece of an access to a value whose end is known; all members in bytes.

@@ -41,8 +41,6 @@ const CO_OBJ_TYPE* stream::original_type(const CO_OBJ& obj) {
 namespace od {
 namespace {
 
-constexpr uint32_t longest_number = 8;
-
 bool is_wide(const CO_OBJ_TYPE* type) {
   return type == &COTInt64 || type == &COTReal64 || type == &COTUnsigned40 || type == &COTUnsigned48 ||
          type == &COTUnsigned56 || type == &COTSigned40 || type == &COTSigned48 || type == &COTSigned56;

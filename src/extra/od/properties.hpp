@@ -7,6 +7,8 @@
 
 namespace co::od {
 
+inline constexpr uint32_t longest_number = 8;  // bytes
+
 // Kind of an entry.
 enum class Kind : uint8_t {
   number,              // a value of up to 8 bytes

@@ -39,7 +39,7 @@ uint8_t byte_at(const CO_EMCY& emcy, uint32_t application, uint32_t byte) {
   return byte < sizeof emcy.Err ? emcy.Err[byte] : uint8_t{0};
 }
 
-uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t) {
+uint32_t size_of_bits(CO_OBJ* obj, CO_NODE* node, uint32_t) {
   const auto* const bits = data_of<const CO_EMCY_BITS>(*obj);
   if (bits == nullptr) {
     return 0;
@@ -47,14 +47,14 @@ uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t) {
   return application_bytes(*bits, *node) + (bits->Stack != 0 ? stack_bytes : 0);
 }
 
-CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t length) {
+CO_ERR read_bits(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t length) {
   auto* const bits = data_of<CO_EMCY_BITS>(*obj);
   if (bits == nullptr) {
     return CO_ERR_BAD_ARG;
   }
   const uint32_t application = application_bytes(*bits, *node);
   auto* to = static_cast<uint8_t*>(buffer);
-  for (uint32_t n = stream::clip(length, bits->Offset, size(obj, node, 0)); n != 0; --n) {
+  for (uint32_t n = stream::clip(length, bits->Offset, size_of_bits(obj, node, 0)); n != 0; --n) {
     *to++ = byte_at(node->Emcy, application, bits->Offset++);
   }
   return CO_ERR_NONE;
@@ -70,7 +70,7 @@ void trigger(CO_NODE* node) {
   }
 }
 
-CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
+CO_ERR init_bits(CO_OBJ* obj, CO_NODE* node) {
   node->Emcy.ShowBits = trigger;
   return stream::init(obj, node);
 }
@@ -79,7 +79,7 @@ CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
 
 }  // namespace co::emcy
 
-extern "C" const CO_OBJ_TYPE COTEmcyBits = {co::emcy::size, co::emcy::init_entry, co::emcy::read, nullptr,
+extern "C" const CO_OBJ_TYPE COTEmcyBits = {co::emcy::size_of_bits, co::emcy::init_bits, co::emcy::read_bits, nullptr,
                                             co::stream::reset};
 
 #endif

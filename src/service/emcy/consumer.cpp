@@ -22,11 +22,11 @@ void update_route(CO_NODE& node, uint8_t node_id) {
   routes::change(node, cob_id::identifier(cob_id), routes::owner<PartId::emcy_consumer>(node_id - 1U));
 }
 
-CO_ERR may_replace(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {
+CO_ERR may_replace_producer(CO_NODE&, CO_OBJ&, uint32_t value, uint32_t before) {
   return cob_id::may_replace(before, value) ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
 }
 
-void apply(CO_NODE& node, CO_OBJ& obj, uint32_t, uint32_t) {
+void apply_producer(CO_NODE& node, CO_OBJ& obj, uint32_t, uint32_t) {
   const uint8_t node_id = CO_GET_SUB(obj.Key);
   if (node.Nmt.Mode != CO_INVALID && dict::is_number(node_id - 1U, CO_EMCY_CONS_N)) {
     update_route(node, node_id);
@@ -53,7 +53,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
 
 }  // namespace co::emcy
 
-extern "C" const CO_OBJ_TYPE COTEmcyCons =
-    co::parameter<co::integer::cob_id, co::rules::emcy_consumer, co::emcy::may_replace, co::emcy::apply>;
+extern "C" const CO_OBJ_TYPE COTEmcyCons = co::parameter<co::integer::cob_id, co::rules::emcy_consumer,
+                                                         co::emcy::may_replace_producer, co::emcy::apply_producer>;
 
 #endif

@@ -61,12 +61,12 @@ void restart_life(CO_NODE& node, uint32_t ticks) {
 // because the toggle bit must not skip a value on the bus.
 void answer(CO_NODE& node) {
   CO_IF_FRM* const waiting = transmit::find_waiting(node, wire::CobId::error_control + node.NodeId);
-  const uint8_t toggle = waiting != nullptr ? waiting->Data[0] & wire::toggle : node.Guarding.Toggle;
+  const uint8_t toggle = waiting != nullptr ? waiting->Data[0] & wire::guarding_toggle : node.Guarding.Toggle;
   const CO_IF_FRM frame = wire::error_control(node.NodeId, node.Nmt.Mode, toggle);
   if (waiting != nullptr) {
     *waiting = frame;
   } else if (transmit::send(node, frame)) {
-    node.Guarding.Toggle ^= wire::toggle;
+    node.Guarding.Toggle ^= wire::guarding_toggle;
   }
 }
 

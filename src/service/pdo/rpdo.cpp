@@ -28,7 +28,7 @@ constexpr unsigned reported = too_short | too_long | late;
 static_assert(offsetof(CO_RPDO, Own.Data) % sizeof(Word) == 0);
 
 // Returns whether an RPDO is synchronous. Types 252 and 253 (remote requests) are not possible.
-bool is_synchronous(const CO_RPDO& pdo) { return USE_SYNC != 0 && pdo.Type <= last_synchronous_type; }
+bool applies_at_sync(const CO_RPDO& pdo) { return USE_SYNC != 0 && pdo.Type <= last_synchronous_type; }
 
 // Faults of the bits from too_short to late.
 constexpr Fault fault_of_bit[] = {Fault::pdo_short, Fault::pdo_long, Fault::pdo_timeout};
@@ -76,7 +76,7 @@ void forget_stored(CO_NODE& node) {
 
 // Processes a frame. Returns false if it is too short.
 [[gnu::noinline]] bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
-  if (is_switching(node) || (is_synchronous(pdo) && node.WindowOver != 0)) {
+  if (is_switching(node) || (applies_at_sync(pdo) && node.WindowOver != 0)) {
     return true;
   }
   if (!check_length(pdo, frame.DLC)) {
@@ -89,7 +89,7 @@ void forget_stored(CO_NODE& node) {
   if (callback::receive_pdo(node, copy) != 0) {
     return true;
   }
-  if (is_synchronous(pdo)) {
+  if (applies_at_sync(pdo)) {
     store_until_sync(pdo, copy);
     return true;
   }

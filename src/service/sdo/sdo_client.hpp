@@ -27,4 +27,4 @@ inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).fr
 
 namespace co {
 namespace sdo_client = sdo::client;  // the name of the part
-}
+}  // namespace co

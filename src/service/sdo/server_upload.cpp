@@ -38,7 +38,7 @@ namespace {
 constexpr uint32_t smaller(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
 // Updates the CRC, which covers each byte once, even if it is sent again.
-void add_to_crc(CO_SDO& channel, uint32_t position) {
+void add_sent_to_crc(CO_SDO& channel, uint32_t position) {
   if (channel.Read <= channel.Summed) {
     return;
   }
@@ -70,7 +70,7 @@ Abort load(CO_SDO& channel, uint32_t position) {
   }
   channel.Flow.Fill = static_cast<uint16_t>(channel.Read - position);
   if (abort == Abort::none) {
-    add_to_crc(channel, position);
+    add_sent_to_crc(channel, position);
   }
   return abort;
 }
