@@ -18,6 +18,7 @@ lane() {
       size_of_node $cpu "$preset" || return
     done
   done
+  sizes_of_one_file
   size_of_memory && size_of_things || return
   report_nodes
   report_modules
@@ -69,6 +70,33 @@ size_of_node() {  # CPU PRESET
   size_lines "$(title_of "$2")" "$program" "$(awk '/^all modules/ { print $NF }' "$of-$1-$2-modules")" >>"$of-$1"
   size_lines "$(title_of "$2")" "$program-lto" >>"$of-$1-lto"
   [ "$2" != minimal ] || size_with_classic_drivers "$1" "$2"
+}
+
+# Checks the library as one file, written afresh: without LTO a program is not larger than with the library, with LTO at
+# most 1 % larger than with the library and LTO; a C program is linked without the C++ run time.
+sizes_of_one_file() {
+  local preset
+  python3 "$root/cmake/one_file.py" "$build/one_file" || return
+  check "the library as one file, with the defaults of the compiler" "$tools-g++" -c -Wall -Wextra -Werror \
+    "$build/one_file/lexican.cpp" -o "$of.o"
+  for preset in minimal fair; do
+    check "the library as one file, $preset" one_file_fits "$preset" "$build/sizes-m0plus/node-$preset"
+    check "the library as one file, $preset with LTO" one_file_fits "$preset" "$build/sizes-m0plus/node-$preset-lto" \
+      -flto=2 -fno-exceptions -fno-tree-loop-distribute-patterns
+  done
+}
+
+one_file_fits() {  # PRESET PROGRAM FLAG...: compared with a program of the library
+  local program=$build/one_file/$1 flash most
+  "${compile[@]/%-gcc/-g++}" -Wall -Wextra -Werror "$(preset_flag "$1")" -I "$root/config" -c \
+    "$build/one_file/lexican.cpp" -o "$program.o" "${@:3}" &&
+    "${compile[@]}" "${specs[@]}" -o "$program" "${@:3}" "${2%-lto}.o" "$program.o" -nostartfiles -Wl,--gc-sections \
+      -Wl,-e,main || return
+  read -r flash _ < <(bytes_of "$program")
+  read -r most _ < <(bytes_of "$2")
+  [ $# -eq 2 ] || most=$((most * 101 / 100))
+  echo "$flash bytes, at most $most"
+  [ "$flash" -gt 0 ] && [ "$flash" -le "$most" ]
 }
 
 # The flash of the stack with adapters for classic drivers.

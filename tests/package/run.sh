@@ -39,6 +39,17 @@ with_drivers() {
   grep -x ' 500 ms, node 5: 705 7F' "$directory/said"
 }
 
+# The three files of docs/integrate.md, written afresh, with the defaults of the compiler.
+one_file() {
+  python3 "$source/cmake/one_file.py" "$directory"
+  for preset in 1 3 2; do
+    g++ -c -Os -Wall -Wextra -Werror -DLEXICAN_PRESET=$preset "$directory/lexican.cpp" -o "$directory/lexican.o"
+  done
+  if nm -C "$directory/lexican.o" | grep ' [BDRTVW] co::'; then return 1; fi
+  sed 's/co_core\.h/lexican.h/' "$program" >"$directory/main.c"
+  build_and_refuse "${compiler[@]}" -Wall -Wextra -Werror "$directory/main.c" "$directory/lexican.o"
+}
+
 library=$(dirname "$(find "$prefix" -name liblexican.a)")
 case $way in
   pkg_config)
@@ -50,6 +61,7 @@ case $way in
     build_and_refuse "${compiler[@]}" -I "$prefix/include/lexican" -L "$library" "$program" -llexican
     ;;
   drivers) with_drivers ;;
+  one_file) one_file ;;
   *) by_cmake ;;
 esac
 timeout 10 "$directory/consumer"
