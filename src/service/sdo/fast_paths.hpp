@@ -166,4 +166,17 @@ inline bool store_straight(const CO_SDO&, const CO_IF_FRM&) { return false; }
   return (is_upload || state == State::download) && pass_segment(channel, frame, is_upload);
 }
 
+// Answers a request without the state machine of the server. Returns false if that has to process it; found: object of
+// the request, if it was found.
+[[gnu::always_inline]] inline bool answer_at_once(CO_SDO& channel, const CO_IF_FRM& frame, CO_OBJ*& found) {
+  if (state_of(channel) != State::idle) {
+    return answer_segment(channel, frame);
+  }
+  if (!initiates_number(frame.Data[0])) {
+    return false;
+  }
+  found = find_number(channel, frame);
+  return found == nullptr || answer_number(channel, frame, *found);
+}
+
 }  // namespace co::sdo::server

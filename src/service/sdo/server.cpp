@@ -103,14 +103,7 @@ inline void run_handler(CO_SDO& channel, Handler handler, const CO_IF_FRM& reque
     return false;
   }
   CO_OBJ* found = nullptr;
-  if (state_of(channel) == State::idle) {
-    if (initiates_number(frame.Data[0])) {
-      found = find_number(channel, frame);
-      if (found == nullptr || answer_number(channel, frame, *found)) {
-        return true;
-      }
-    }
-  } else if (USE_FAST_PATHS != 0 && answer_segment(channel, frame)) {
+  if (USE_FAST_PATHS != 0 && answer_at_once(channel, frame, found)) {
     return true;
   }
   const bool in_block = is_segment(channel, frame);
