@@ -164,13 +164,12 @@ typedef struct CO_EMCY_T {
   struct CO_NODE_T* Node;                    ///< owner
   const CO_EMCY_TBL* Root;                   ///< CO_NODE_SPEC.EmcyCode
   uint8_t Register;                          ///< error register
-  uint8_t RegisterChanged;                   ///< the error register was not written to 1001h yet
+  uint8_t Waiting;                           ///< messages in the queue, oldest first
   uint16_t Faults;                           ///< number of unresolved occurrences of all errors of the stack
   uint8_t Err[CO_EMCY_STORAGE];              ///< errors of the application: bit 0 of byte 0 is identifier 0
   CO_EMCY_COUNT Fault[CO_EMCY_FAULT_N];      ///< number of unresolved occurrences of each error of the stack
-  uint8_t Waiting;                           ///< messages in the queue, oldest first
   CO_EMCY_HIST Hist;                         ///< 1003h
-  CO_OBJ* RegisterEntry;                     ///< 1001h; null: there is none
+  CO_OBJ* RegisterEntry;                     ///< 1001h; null: there is none that is written
   CO_OBJ* IdEntry;                           ///< 1014h; null: there is none
   void (*ShowBits)(struct CO_NODE_T* node);  ///< triggers the TPDOs of error status bits; null: there are none
   CO_TMR_MEM Hold[CO_EMCY_HOLD_N];           ///< times until 8110h and 8150h are resolved

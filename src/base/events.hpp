@@ -51,10 +51,11 @@ enum Pending : uint16_t {
   reset_communication = 0x02,
   commanded = 0x04,  // the reset was commanded by the NMT master
   configure = 0x08,  // parameters of SDO servers, SDO clients or PDOs were changed, or SRDOs were ended by CODictInit()
-  mode = 0x20,       // CO_NMT.Next was requested
-  send_emcy = 0x40,  // EMCY messages are queued, or the error register has changed
-  send_tpdos = 0x80,  // event-driven TPDOs are marked; not while OdLock is held
-  overrun = 0x100,    // CONodeRealTime() has lost frames
+  write_register = 0x10,  // the error register differs from 1001h; send_emcy is set, too
+  mode = 0x20,            // CO_NMT.Next was requested
+  send_emcy = 0x40,       // EMCY messages are queued, or write_register is set
+  send_tpdos = 0x80,      // event-driven TPDOs are marked; not while OdLock is held
+  overrun = 0x100,        // CONodeRealTime() has lost frames
 };
 // Adds deferred work. what: bits of Pending
 inline void defer(CO_NODE& node, unsigned what) { node.Pending = static_cast<uint16_t>(node.Pending | what); }
@@ -71,27 +72,32 @@ inline void remove(CO_NODE& node, unsigned what) { node.Pending = static_cast<ui
 // initialisation in progress includes them.
 inline constexpr uint8_t resets = reset_node | reset_communication | commanded;
 // Work that the thread which has requested it runs, also a real-time thread.
-inline constexpr uint8_t messages = send_emcy | send_tpdos;
+inline constexpr uint8_t messages = write_register | send_emcy | send_tpdos;
 // Work that is deferred until CONodeProcess() where there is a real-time thread (CO_NODE_EXT.Mainline).
 inline constexpr uint16_t of_mainline = resets | overrun;
 inline void forget_resets(CO_NODE& node) { remove(node, resets); }
 
 // Communication faults, each with an EMCY error code (lexican/detail/faults.h).
 enum class Fault : uint8_t {
-#define CO_NAME(fault, code, bit, led) fault,
+#define CO_NAME(fault, code, led) fault,
   CO_FAULTS(CO_NAME)
 #undef CO_NAME
-      count
 };
 
-// Reports that a fault has occurred (raise()) or has ended (resolve()). Faults are counted: each raise() needs exactly
-// one resolve() or forget(). detail: third to fifth byte of the manufacturer-specific error field of the EMCY message,
-// a node-ID, the number of a PDO, or an index and a byte.
-void raise(CO_NODE& node, Fault fault, uint32_t detail);
-void resolve(CO_NODE& node, Fault fault, uint32_t detail);
-// Like resolve(), without an EMCY message: the service has stopped to monitor the fault.
-inline constexpr uint32_t silently = UINT32_MAX;
-inline void forget(CO_NODE& node, Fault fault) { resolve(node, fault, silently); }
+// Change of a fault.
+enum class Change : uint8_t {
+  ended,
+  occurred,
+  forgotten  // ended without an EMCY message: the service has stopped to monitor the fault
+};
+
+// Reports a change of a fault. Faults are counted: each that has occurred must end or be forgotten exactly once.
+// detail: third to fifth byte of the manufacturer-specific error field of the EMCY message, a node-ID, the number of a
+// PDO, or an index and a byte.
+void change_fault(CO_NODE& node, Fault fault, Change change, uint32_t detail);
+inline void raise(CO_NODE& node, Fault fault, uint32_t detail) { change_fault(node, fault, Change::occurred, detail); }
+inline void resolve(CO_NODE& node, Fault fault, uint32_t detail) { change_fault(node, fault, Change::ended, detail); }
+inline void forget(CO_NODE& node, Fault fault) { change_fault(node, fault, Change::forgotten, 0); }
 
 // Reports that the node has lost the network: by bus-off, or because a monitored node or the NMT master is missing.
 // Changes the NMT state by 1029h. [301:7.5.2.32]

@@ -14,7 +14,6 @@ class Part {
   using Function = void (*)(CO_NODE& node);
   // Processes a frame of one of its routes. Returns false if the frame is malformed.
   using Handler = bool (*)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
-  using FaultFunction = void (*)(CO_NODE& node, event::Fault fault, uint32_t detail);
 
   static bool refuse(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
 
@@ -74,8 +73,8 @@ class Part {
   CO_COLUMN(remap, Function, nullptr)
 
   // Events of other parts, of the controller and of the application (base/events.hpp).
-  CO_COLUMN(raise, FaultFunction, nullptr)
-  CO_COLUMN(resolve, FaultFunction, nullptr)
+  using ChangeFault = void (*)(CO_NODE& node, event::Fault fault, event::Change change, uint32_t detail);
+  CO_COLUMN(change_fault, ChangeFault, nullptr)
   using Can = void (*)(CO_NODE& node, CO_CAN_EVENT what);
   CO_COLUMN(can, Can, nullptr)
   CO_COLUMN(bus_off, Function, nullptr)

@@ -153,9 +153,9 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
 
 }  // namespace parts
 
-void event::raise(CO_NODE& node, Fault fault, uint32_t detail) { parts::run<&Part::of_raise>(node, fault, detail); }
-
-void event::resolve(CO_NODE& node, Fault fault, uint32_t detail) { parts::run<&Part::of_resolve>(node, fault, detail); }
+void event::change_fault(CO_NODE& node, Fault fault, Change change, uint32_t detail) {
+  parts::run<&Part::of_change_fault>(node, fault, change, detail);
+}
 
 void event::report_can(CO_NODE& node, CO_CAN_EVENT what) {
   if (what == CO_CAN_BUS_OFF) {

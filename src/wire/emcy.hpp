@@ -9,22 +9,15 @@ namespace co::wire {
 
 inline constexpr uint8_t emcy_dlc = 8;
 
-inline constexpr unsigned emcy_register_byte = 2;
-
-// Returns the message of a fault of the stack, without identifier and error register: an error code, and detail (24
-// bits, see base/events.hpp) as third to fifth byte of the manufacturer-specific error field. The first two, which are
-// also in 1003h, are 0. [301:7.5.2.4]
-inline CO_IF_FRM emcy(uint16_t code, uint32_t detail) {
-  CO_IF_FRM frame = empty_frame(0, emcy_dlc);
-  put_low(frame, code);
-  put_high(frame, detail << 8);
+// Returns a message. low: error code, in bits 16…23 the error register, then the first byte of the
+// manufacturer-specific error field; high: its other bytes. The first byte is the lowest.
+inline CO_IF_FRM emcy(uint32_t identifier, uint32_t low, uint32_t high) {
+  CO_IF_FRM frame;
+  frame.Identifier = identifier;
+  put_low(frame, low);
+  put_high(frame, high);
+  frame.DLC = emcy_dlc;
   return frame;
-}
-
-// Sets the five bytes of the manufacturer-specific error field.
-inline void put_emcy_bytes(CO_IF_FRM& frame, const uint8_t* msef) {
-  frame.Data[3] = msef[0];
-  put_high(frame, get_u32(msef + 1));
 }
 
 // Return the members of a received frame. emcy_bytes(): the five bytes of the manufacturer-specific error field.

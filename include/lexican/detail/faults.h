@@ -8,37 +8,32 @@
 #include "co_cfg.h"
 
 /// \cond internal
-// The first three rows are states of the controller and of the bus; a new row is placed at the end.
-// X(fault, code, bit, led). code: EMCY error code [301:7.2.7]. bit: CO_EMCY_BIT_.... led: CO_LED_... that it sets, or
-// 0.
-#define CO_FAULTS(X)                                                                         \
-  X(overrun, CO_EMCY_CODE_MON_COM_OVERRUN_ERR, CO_EMCY_BIT_OVERRUN, 0)                       \
-  X(collision, CO_EMCY_CODE_MON_COM_COLLISION_ERR, CO_EMCY_BIT_COLLISION, 0)                 \
-  X(passive, CO_EMCY_CODE_MON_COM_PASSIVE_ERR, CO_EMCY_BIT_PASSIVE, 0)                       \
-  X(heartbeat, CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_EMCY_BIT_HEARTBEAT, CO_LED_CONTROL)    \
-  X(life_guard, CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_EMCY_BIT_LIFE_GUARD, CO_LED_CONTROL)  \
-  X(recovered, CO_EMCY_CODE_MON_COM_RECOVER_ERR, CO_EMCY_BIT_BUS_OFF, 0)                     \
-  X(pdo_short, CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR, CO_EMCY_BIT_PDO_SHORT, 0)                  \
-  X(pdo_long, CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR, CO_EMCY_BIT_PDO_LONG, 0)                    \
-  CO_FAULTS_OF_MPDO(X)                                                                       \
-  X(sync_length, CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR, CO_EMCY_BIT_SYNC_LENGTH, CO_LED_SYNC)   \
-  X(pdo_timeout, CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR, CO_EMCY_BIT_PDO_TIMEOUT, CO_LED_PDO) \
+// The first three rows are states of the controller and of the bus.
+// X(fault, code, led). The position of a row is the bit CO_EMCY_BIT_...; a new row is placed at the end. code: EMCY
+// error code [301:7.2.7]. led: CO_LED_... that it sets, or 0.
+#define CO_FAULTS(X)                                                \
+  X(overrun, CO_EMCY_CODE_MON_COM_OVERRUN_ERR, 0)                   \
+  X(collision, CO_EMCY_CODE_MON_COM_COLLISION_ERR, 0)               \
+  X(passive, CO_EMCY_CODE_MON_COM_PASSIVE_ERR, 0)                   \
+  X(heartbeat, CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_LED_CONTROL)  \
+  X(life_guard, CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_LED_CONTROL) \
+  X(recovered, CO_EMCY_CODE_MON_COM_RECOVER_ERR, 0)                 \
+  X(pdo_short, CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR, 0)                \
+  X(pdo_long, CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR, 0)                 \
+  X(pdo_unknown, CO_EMCY_CODE_MON_PROT_DAM_ERR, 0)                  \
+  X(sync_length, CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR, CO_LED_SYNC)   \
+  X(pdo_timeout, CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR, CO_LED_PDO) \
   CO_FAULTS_OF_SRDO(X)
-#if CO_MPDO_N > 0
-#define CO_FAULTS_OF_MPDO(X) X(pdo_unknown, CO_EMCY_CODE_MON_PROT_DAM_ERR, CO_EMCY_BIT_PDO_UNKNOWN, 0)
-#else
-#define CO_FAULTS_OF_MPDO(X)
-#endif
 #if CO_SRDO_N > 0
-#define CO_FAULTS_OF_SRDO(X)                                                            \
-  X(srdo_configuration, CO_EMCY_CODE_SW_DATASET_ERR, CO_EMCY_BIT_SRDO_CONFIGURATION, 0) \
-  X(srdo, CO_EMCY_CODE_MON_PROT_ERR, CO_EMCY_BIT_SRDO, 0)
+#define CO_FAULTS_OF_SRDO(X)                            \
+  X(srdo_configuration, CO_EMCY_CODE_SW_DATASET_ERR, 0) \
+  X(srdo, CO_EMCY_CODE_MON_PROT_ERR, 0)
 #else
 #define CO_FAULTS_OF_SRDO(X)
 #endif
 
 // NOLINTNEXTLINE(bugprone-macro-parentheses): a term of a sum
-#define CO_COUNT_FAULT(fault, code, bit, led) +1
+#define CO_COUNT_FAULT(fault, code, led) +1
 #define CO_EMCY_FAULT_N (0 CO_FAULTS(CO_COUNT_FAULT))
 /// \endcond
 

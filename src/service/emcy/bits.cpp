@@ -17,17 +17,10 @@ uint32_t application_bytes(const CO_EMCY_BITS& bits, const CO_NODE& node) {
   return bits.Size != 0 ? bits.Size : (table_length(node.Emcy) + 7U) / 8U;
 }
 
-// Bit of each error of the stack, which does not depend on the configuration.
-constexpr uint8_t bit_of[] = {
-#define CO_BIT(fault, code, bit, led) bit,
-    CO_FAULTS(CO_BIT)
-#undef CO_BIT
-};
-
 uint8_t stack_byte(const CO_EMCY& emcy, uint32_t byte) {
   uint32_t set = 0;
   for (uint32_t fault = 0; fault < CO_EMCY_FAULT_N; ++fault) {
-    set |= emcy.Fault[fault] != 0 ? 1U << bit_of[fault] : 0U;
+    set |= emcy.Fault[fault] != 0 ? 1U << fault : 0U;
   }
   return static_cast<uint8_t>(set >> (8 * byte));
 }

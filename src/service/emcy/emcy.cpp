@@ -17,23 +17,25 @@
 namespace co::emcy {
 namespace {
 
+using event::Change;
 using event::Fault;
 
 constexpr uint32_t key_register = CO_DEV(0x1001, 0);
 constexpr uint32_t key_cob_id = CO_DEV(0x1014, 0);
 
 constexpr uint16_t codes[] = {
-#define CO_CODE(fault, code, bit, led) code,
+#define CO_CODE(fault, code, led) code,
     CO_FAULTS(CO_CODE)
 #undef CO_CODE
 };
 
-constexpr uint16_t code_of(Fault fault) { return codes[static_cast<uint8_t>(fault)]; }
-static_assert(code_of(Fault::overrun) == 0x8110 && code_of(Fault::life_guard) == 0x8130);
-static_assert(code_of(Fault::recovered) == 0x8140 && code_of(Fault::pdo_timeout) == 0x8250);
+// Returns the position of a fault in CO_EMCY.Fault, which is its bit of the error status (CO_EMCY_BIT_…).
+constexpr uint8_t number_of(Fault fault) { return static_cast<uint8_t>(fault); }
+static_assert(number_of(Fault::passive) == CO_EMCY_BIT_PASSIVE);
+static_assert(number_of(Fault::recovered) == CO_EMCY_BIT_BUS_OFF && number_of(Fault::pdo_long) == CO_EMCY_BIT_PDO_LONG);
+static_assert(number_of(Fault::pdo_timeout) == CO_EMCY_BIT_PDO_TIMEOUT);
 
-// Returns how often a fault was raised without being resolved.
-CO_EMCY_COUNT& number_of(CO_NODE& node, Fault fault) { return node.Emcy.Fault[static_cast<uint8_t>(fault)]; }
+bool has_fault(const CO_EMCY& emcy, Fault fault) { return emcy.Fault[number_of(fault)] != 0; }
 
 // Errors of the application -------------------------------------------------------------------------------------------
 
@@ -63,37 +65,40 @@ inline uint32_t bits_of(const CO_EMCY_TBL& error) {
   return generic | (error.Reg < CO_EMCY_REG_NUM ? 1U << error.Reg : 0U);
 }
 
-// Returns the error register. Bit 6 is reserved. [301:7.5.2.2]
-uint8_t register_of(const CO_EMCY& emcy) {
-  constexpr uint32_t reserved = 1U << 6;
+// Updates the error register, of which bit 6 is reserved. [301:7.5.2.2] If it changes, send_queued() writes it to
+// 1001h.
+void update_register(CO_EMCY& emcy) {
   uint32_t bits = emcy.Faults != 0 ? generic | 1U << CO_EMCY_REG_COM : 0U;
   for (uint32_t byte = 0; byte < sizeof emcy.Err; ++byte) {
-    uint32_t err = byte * 8;
-    for (uint32_t set = emcy.Err[byte]; set != 0; set >>= 1, ++err) {
-      bits |= (set & 1U) != 0 ? bits_of(emcy.Root[err]) : 0U;
+    const CO_EMCY_TBL* error = emcy.Root + byte * 8;
+    for (uint32_t set = emcy.Err[byte]; set != 0; set >>= 1, ++error) {
+      bits |= (set & 1U) != 0 ? bits_of(*error) : 0U;
     }
   }
-  return static_cast<uint8_t>(bits & ~reserved);
+  bits &= UINT8_MAX - (1U << 6);
+  if (bits != emcy.Register) {
+    emcy.Register = static_cast<uint8_t>(bits);
+    event::defer(*emcy.Node, event::send_emcy | event::write_register);
+  }
 }
 
-// Updates the error register. If it has changed, send_queued() writes it to 1001h.
-uint8_t update_register(CO_EMCY& emcy) {
-  const uint8_t bits = register_of(emcy);
-  if (bits != emcy.Register) {
-    emcy.Register = bits;
-    emcy.RegisterChanged = 1;
-    event::defer(*emcy.Node, event::send_emcy);
+// Counts that a fault has occurred (come: 1) or has ended (0).
+void count_fault(CO_EMCY& emcy, Fault fault, unsigned come) {
+  const unsigned step = 2 * come - 1;
+  CO_EMCY_COUNT& number = emcy.Fault[number_of(fault)];
+  number = static_cast<CO_EMCY_COUNT>(number + step);
+  emcy.Faults = static_cast<uint16_t>(emcy.Faults + step);
+  update_register(emcy);
+  if (number == come) {  // the first occurrence, or the last one has ended
+    show_bits(emcy);
   }
-  return bits;
 }
 
 // Writes the error register to 1001h. An entry with flag D is not written, because it may be in read-only memory.
 void write_register(CO_NODE& node) {
-  CO_EMCY& emcy = node.Emcy;
-  CO_OBJ* const obj = emcy.RegisterEntry;
-  emcy.RegisterChanged = 0;
+  CO_OBJ* const obj = node.Emcy.RegisterEntry;
   if (obj != nullptr && CO_IS_DIRECT(obj->Key) == 0) {
-    uint8_t bits = emcy.Register;
+    uint8_t bits = node.Emcy.Register;
     error::report(node, obj::write(*obj, node, &bits, sizeof bits), key_register);
   }
 }
@@ -106,45 +111,37 @@ void add_to_history(CO_EMCY& emcy, uint32_t entry) {
   }
 }
 
-// Updates the error register and sends a message with it. frame: a message without its register and identifier
-void post(CO_EMCY& emcy, CO_IF_FRM& frame) {
-  frame.Data[wire::emcy_register_byte] = update_register(emcy);
+// Sends a message with the error register. low, high: its other bytes, as in wire::emcy()
+void post(CO_EMCY& emcy, uint32_t low, uint32_t high) {
   if (event::is_allowed(*emcy.Node, CO_EMCY_ALLOWED)) {
-    send_message(*emcy.Node, frame);
+    send_message(*emcy.Node, low | uint32_t{emcy.Register} << 16, high);
   }
 }
 
 // Ends an API function: sends its messages, also in a callback, before the TPDOs that the application requests then.
 void finish_call(CO_NODE& node) {
-  if ((node.Pending & event::send_emcy) != 0 && port::is_initialised(node)) {
+  if ((node.Pending & event::send_emcy) != 0) {
     send_queued(node);
   }
   event::run_deferred(node);
 }
 
-// Adds a fault to the history and sends its message. The first two bytes of the manufacturer-specific error field are 0
-// in both, detail is in the others. code: 0: the fault is resolved, which the history does not contain. [E11]
-void report_fault(CO_EMCY& emcy, uint16_t code, uint32_t detail) {
-  CO_IF_FRM frame = wire::emcy(code, detail);
-  if (code != CO_EMCY_CODE_NO_ERR) {
-    add_to_history(emcy, code);
-  }
-  post(emcy, frame);
-}
-
-// Reports that an error of the application has been set or cleared: in the history and by a message. usr: may be null
-void report_change(CO_EMCY& emcy, unsigned err, bool come, const CO_EMCY_USR* usr) {
-  CO_IF_FRM frame = wire::emcy(0, 0);
+// Reports that an error of the application has been set or cleared: in the register, the history and by a message. usr:
+// may be null
+void report_change(CO_EMCY& emcy, const CO_EMCY_TBL& error, bool come, const CO_EMCY_USR* usr) {
+  uint32_t low = 0;
+  uint32_t high = 0;
   if (come) {
-    uint32_t entry = emcy.Root[err].Code;
-    wire::put_low(frame, entry);
+    uint32_t entry = low = error.Code;
     if (usr != nullptr) {
       entry |= uint32_t{usr->Hist} << 16;
-      wire::put_emcy_bytes(frame, usr->Emcy);
+      low |= uint32_t{usr->Emcy[0]} << 24;
+      high = wire::get_u32(usr->Emcy + 1);
     }
     add_to_history(emcy, entry);
   }
-  post(emcy, frame);
+  update_register(emcy);
+  post(emcy, low, high);
   show_bits(emcy);
 }
 
@@ -160,9 +157,18 @@ void change(CO_EMCY* emcy, unsigned err, bool come, const CO_EMCY_USR* usr) {
     error::report(node, CO_ERR_BAD_ARG);
   } else if (uint8_t& bits = emcy->Err[err / 8]; ((bits & bit) != 0) != come) {
     bits = static_cast<uint8_t>(bits ^ bit);
-    report_change(*emcy, err, come, usr);
+    report_change(*emcy, emcy->Root[err], come, usr);
   }
   finish_call(node);
+}
+
+// Reports a fault: in the history, unless it has ended, and by a message. The first two bytes of the
+// manufacturer-specific error field, which are also in 1003h, are 0; detail is in the others. [301:7.5.2.4]
+void report_fault(CO_EMCY& emcy, uint16_t code, uint32_t detail) {
+  if (code != CO_EMCY_CODE_NO_ERR) {
+    add_to_history(emcy, code);
+  }
+  post(emcy, code, detail << 8);
 }
 
 // Faults without an event that ends them -----------------------------------------------------------------------------
@@ -170,13 +176,13 @@ void change(CO_EMCY* emcy, unsigned err, bool come, const CO_EMCY_USR* usr) {
 // Faults that may occur with every frame. They are resolved by their timer, which each occurrence restarts, when they
 // have not occurred for a second.
 constexpr Fault held[CO_EMCY_HOLD_N] = {Fault::overrun, Fault::collision};
-static_assert(static_cast<uint8_t>(held[0]) == 0 && static_cast<uint8_t>(held[1]) == 1);
+static_assert(number_of(held[0]) == 0 && number_of(held[1]) == 1);
 
 void resolve_held(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   for (const Fault fault : held) {
-    if (!tmr::is_running(node.Emcy.Hold[static_cast<uint8_t>(fault)])) {
-      emcy::resolve(node, fault, 0);
+    if (!tmr::is_running(node.Emcy.Hold[number_of(fault)])) {
+      emcy::change_fault(node, fault, Change::ended, 0);
     }
   }
 }
@@ -186,11 +192,8 @@ void resolve_held(void* node_pointer) {
 // Begins bus-off. Nothing can be sent: only sets the error register, and 8140h is sent after the recovery.
 // [301:7.2.7.1]
 void begin_bus_off(CO_NODE& node) {
-  CO_EMCY_COUNT& number = number_of(node, Fault::recovered);
-  if (number == 0) {
-    number = 1;
-    ++node.Emcy.Faults;
-    update_register(node.Emcy);
+  if (!has_fault(node.Emcy, Fault::recovered)) {
+    count_fault(node.Emcy, Fault::recovered, 1);
   }
 }
 
@@ -198,12 +201,12 @@ void begin_bus_off(CO_NODE& node) {
 // bus-off ends without a message. Otherwise resolves error passive.
 void recover(CO_NODE& node) {
   Fault over = Fault::passive;
-  if (number_of(node, Fault::recovered) != 0) {
-    report_fault(node.Emcy, code_of(Fault::recovered), 0);
-    emcy::resolve(node, Fault::passive, event::silently);
+  if (has_fault(node.Emcy, Fault::recovered)) {
+    report_fault(node.Emcy, codes[number_of(Fault::recovered)], 0);
+    emcy::change_fault(node, Fault::passive, Change::forgotten, 0);
     over = Fault::recovered;
   }
-  emcy::resolve(node, over, 0);
+  emcy::change_fault(node, over, Change::ended, 0);
 }
 
 }  // namespace
@@ -219,21 +222,22 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec) {
 }
 
 void find_objects(CO_NODE& node) {
-  node.Emcy.RegisterEntry = dict::find(node, key_register);
-  node.Emcy.IdEntry = dict::find(node, key_cob_id);
+  CO_EMCY& emcy = node.Emcy;
+  emcy.RegisterEntry = dict::find(node, key_register);
+  emcy.IdEntry = dict::find(node, key_cob_id);
 #if CO_EMCY_QUEUE_N > 0
-  node.Emcy.InhibitEntry = dict::find(node, CO_DEV(0x1015, 0));
+  emcy.InhibitEntry = dict::find(node, CO_DEV(0x1015, 0));
 #endif
 }
 
 void init(CO_NODE& node) {
-  for (CO_EMCY_COUNT& number : node.Emcy.Fault) {
+  CO_EMCY& emcy = node.Emcy;
+  for (CO_EMCY_COUNT& number : emcy.Fault) {
     number = 0;
   }
-  node.Emcy.Faults = 0;
+  emcy.Faults = 0;
   init_history(node);
   find_objects(node);
-  CO_EMCY& emcy = node.Emcy;
   emcy.Register = static_cast<uint8_t>(dict::read_number(node, emcy.RegisterEntry, sizeof(uint8_t), emcy.Register));
   update_register(emcy);
   if (USE_DICT_CHECK != 0 && emcy.Root != nullptr && emcy.IdEntry == nullptr) {
@@ -256,34 +260,21 @@ void on_mode(CO_NODE& node) {
 }
 
 // Counts the faults up to passive once, however often they occur: they describe a state, and one event ends them.
-void raise(CO_NODE& node, Fault fault, uint32_t detail) {
-  const auto kind = static_cast<uint8_t>(fault);
+void change_fault(CO_NODE& node, Fault fault, Change change, uint32_t detail) {
+  const unsigned number = number_of(fault);
+  const unsigned come = change == Change::occurred ? 1 : 0;
   CO_EMCY& emcy = node.Emcy;
-  if (kind < CO_EMCY_HOLD_N) {
-    tmr::start(node, emcy.Hold[kind], node.Tmr.Freq, 0, resolve_held, &node);
+  if (come != 0 && number < CO_EMCY_HOLD_N) {
+    tmr::start(node, emcy.Hold[number], node.Tmr.Freq, 0, resolve_held, &node);
   }
-  CO_EMCY_COUNT& number = emcy.Fault[kind];
-  if (kind <= static_cast<uint8_t>(Fault::passive) && number != 0) {
+  const unsigned before = emcy.Fault[number];
+  if (come != 0 ? before != 0 && number <= number_of(Fault::passive) : before == 0) {
     return;
   }
-  ++emcy.Faults;
-  if (++number == 1) {
-    show_bits(emcy);
+  count_fault(emcy, fault, come);
+  if (change != Change::forgotten) {
+    report_fault(emcy, come != 0 ? codes[number] : uint16_t{CO_EMCY_CODE_NO_ERR}, detail);
   }
-  report_fault(emcy, code_of(fault), detail);
-}
-
-void resolve(CO_NODE& node, Fault fault, uint32_t detail) {
-  CO_EMCY& emcy = node.Emcy;
-  CO_EMCY_COUNT& number = number_of(node, fault);
-  if (number == 0) {
-    return;
-  }
-  --emcy.Faults;
-  if (--number == 0) {
-    show_bits(emcy);
-  }
-  detail == event::silently ? void(update_register(emcy)) : report_fault(emcy, CO_EMCY_CODE_NO_ERR, detail);
 }
 
 void report_can(CO_NODE& node, CO_CAN_EVENT what) {
@@ -291,8 +282,8 @@ void report_can(CO_NODE& node, CO_CAN_EVENT what) {
     return;
   }
   switch (what) {
-    case CO_CAN_OVERRUN: emcy::raise(node, Fault::overrun, 0); break;
-    case CO_CAN_PASSIVE: emcy::raise(node, Fault::passive, 0); break;
+    case CO_CAN_OVERRUN: emcy::change_fault(node, Fault::overrun, Change::occurred, 0); break;
+    case CO_CAN_PASSIVE: emcy::change_fault(node, Fault::passive, Change::occurred, 0); break;
     case CO_CAN_BUS_OFF: begin_bus_off(node); break;
     case CO_CAN_RECOVERED: recover(node); break;
     default: break;
@@ -305,8 +296,9 @@ void forget_application(CO_NODE& node) {
 }
 
 void send_queued(CO_NODE& node) {
-  event::remove(node, event::send_emcy);
-  if (node.Emcy.RegisterChanged != 0) {
+  const unsigned pending = node.Pending;
+  event::remove(node, event::send_emcy | event::write_register);
+  if ((pending & event::write_register) != 0) {
     write_register(node);
   }
   send_waiting(node);

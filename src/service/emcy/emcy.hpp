@@ -5,6 +5,7 @@
 #include "base/part.hpp"
 #include "base/transmit.hpp"
 #include "wire/cob_id.hpp"
+#include "wire/emcy.hpp"
 
 namespace co::emcy {
 
@@ -21,8 +22,7 @@ void init(CO_NODE& node);
 void on_mode(CO_NODE& node);
 
 // Implement the functions of base/events.hpp.
-void raise(CO_NODE& node, event::Fault fault, uint32_t detail);
-void resolve(CO_NODE& node, event::Fault fault, uint32_t detail);
+void change_fault(CO_NODE& node, event::Fault fault, event::Change change, uint32_t detail);
 void report_can(CO_NODE& node, CO_CAN_EVENT what);
 
 // Clears the application's errors and the history.
@@ -40,8 +40,8 @@ void send_queued(CO_NODE& node);
 
 // Queue of messages (queue.cpp). CO_EMCY_QUEUE_N 0 omits queue and inhibit time: messages are sent at once.
 #if CO_EMCY_QUEUE_N > 0
-// Queues a message for the end of the API call, if there is an identifier. frame: the message without its identifier
-void send_message(CO_NODE& node, CO_IF_FRM& frame);
+// Queues a message for the end of the API call, if there is an identifier. low, high: bytes as in wire::emcy()
+void send_message(CO_NODE& node, uint32_t low, uint32_t high);
 
 // Sends the queued messages, unless the inhibit time is running.
 void send_waiting(CO_NODE& node);
@@ -51,10 +51,10 @@ void stop_inhibit_time(CO_NODE& node);
 // Discards queued messages, including those in the transmit queue with this identifier.
 void withdraw(CO_NODE& node, uint32_t identifier);
 #else
-inline void send_message(CO_NODE& node, CO_IF_FRM& frame) {
-  frame.Identifier = identifier(node);
-  if (frame.Identifier != wire::no_frame) {
-    transmit::send(node, frame);
+inline void send_message(CO_NODE& node, uint32_t low, uint32_t high) {
+  const uint32_t id = identifier(node);
+  if (id != wire::no_frame) {
+    transmit::send(node, wire::emcy(id, low, high));
   }
 }
 inline void send_waiting(CO_NODE&) {}
@@ -88,8 +88,7 @@ inline constexpr Part part = Part()
                                  .mode(on_mode)
                                  .table(find_objects)
                                  .reset_node(forget_application)
-                                 .raise(raise)
-                                 .resolve(resolve)
+                                 .change_fault(change_fault)
                                  .can(report_can)
                                  .deferred(event::send_emcy, send_queued);
 

@@ -32,10 +32,8 @@ void send_until_inhibited(CO_NODE& node, uint32_t identifier) {
   CO_EMCY& emcy = node.Emcy;
   while (emcy.Waiting != 0) {
     unsigned pause = next_attempt;
-    if (!transmit::is_full(node)) {
-      CO_IF_FRM frame = wire::empty_frame(identifier, wire::emcy_dlc);
-      wire::put_low(frame, emcy.Queue[0].Low);
-      wire::put_high(frame, emcy.Queue[0].High);
+    if (!transmit::is_waiting(node) || !transmit::is_full(node)) {
+      const CO_IF_FRM frame = wire::emcy(identifier, emcy.Queue[0].Low, emcy.Queue[0].High);
       remove_first(emcy);
       transmit::send(node, frame);
       pause = inhibit_time(node);
@@ -62,7 +60,7 @@ void on_time(void* node_pointer) {
 }  // namespace
 
 // In a full queue the message replaces the newest one, so that the last message always reports the present state.
-void send_message(CO_NODE& node, CO_IF_FRM& frame) {
+void send_message(CO_NODE& node, uint32_t low, uint32_t high) {
   CO_EMCY& emcy = node.Emcy;
   if (tmr::is_running(emcy.Tmr) && identifier(node) == wire::no_frame) {
     return;
@@ -74,7 +72,7 @@ void send_message(CO_NODE& node, CO_IF_FRM& frame) {
     count(node.Count.Dropped);
     --emcy.Waiting;
   }
-  emcy.Queue[emcy.Waiting++] = {wire::get_low(frame), wire::get_high(frame)};
+  emcy.Queue[emcy.Waiting++] = {low, high};
   event::defer(node, event::send_emcy);
 }
 

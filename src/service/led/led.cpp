@@ -123,7 +123,7 @@ void stop(CO_NODE& node) {
 
 // Condition that each fault sets, or 0.
 constexpr uint8_t conditions[] = {
-#define CO_CONDITION(fault, code, bit, led) led,
+#define CO_CONDITION(fault, code, led) led,
     CO_FAULTS(CO_CONDITION)
 #undef CO_CONDITION
 };
@@ -167,18 +167,11 @@ void report_can(CO_NODE& node, CO_CAN_EVENT what) {
   update(node);
 }
 
-void raise(CO_NODE& node, event::Fault fault, uint32_t) {
+void change_fault(CO_NODE& node, event::Fault fault, event::Change change, uint32_t) {
   uint16_t* const counter = counter_of(node.Led, fault);
-  if (counter != nullptr) {
-    ++*counter;
-    update(node);
-  }
-}
-
-void resolve(CO_NODE& node, event::Fault fault, uint32_t) {
-  uint16_t* const counter = counter_of(node.Led, fault);
-  if (counter != nullptr && *counter != 0) {
-    --*counter;
+  const bool come = change == event::Change::occurred;
+  if (counter != nullptr && (come || *counter != 0)) {
+    *counter = static_cast<uint16_t>(*counter + (come ? 1 : -1));
     update(node);
   }
 }

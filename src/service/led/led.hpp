@@ -17,10 +17,9 @@ void update(CO_NODE& node);
 void report_can(CO_NODE& node, CO_CAN_EVENT what);
 
 // Raise and resolve a fault. Faults are counted.
-void raise(CO_NODE& node, event::Fault fault, uint32_t detail);
-void resolve(CO_NODE& node, event::Fault fault, uint32_t detail);
+void change_fault(CO_NODE& node, event::Fault fault, event::Change change, uint32_t detail);
 
 inline constexpr Part part =
-    Part().init(init).mode(on_mode).raise(raise).resolve(resolve).can(report_can).lss_changed(update);
+    Part().init(init).mode(on_mode).change_fault(change_fault).can(report_can).lss_changed(update);
 
 }  // namespace co::led

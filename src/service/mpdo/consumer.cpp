@@ -69,9 +69,8 @@ void report_unknown(CO_RPDO& pdo, bool is_unknown) {
     return;
   }
   pdo.Faults ^= pdo::unknown;
-  const uint8_t detail = pdo::detail_of(pdo);
-  is_unknown ? event::raise(*pdo.Node, Fault::pdo_unknown, detail)
-             : event::resolve(*pdo.Node, Fault::pdo_unknown, detail);
+  event::change_fault(*pdo.Node, Fault::pdo_unknown, is_unknown ? event::Change::occurred : event::Change::ended,
+                      pdo::detail_of(pdo));
 }
 
 // Writes the object that the frame names. Returns false if there is none.

@@ -111,7 +111,7 @@ void report(CO_RPDO& pdo, unsigned faults, unsigned is) {
     if (((pdo.Faults ^ is) & faults & bit) != 0) {
       const uint8_t detail = detail_of(pdo);
       pdo.Faults = static_cast<uint8_t>(pdo.Faults ^ bit);
-      (is & bit) != 0 ? event::raise(*pdo.Node, fault, detail) : event::resolve(*pdo.Node, fault, detail);
+      event::change_fault(*pdo.Node, fault, (is & bit) != 0 ? event::Change::occurred : event::Change::ended, detail);
     }
     bit <<= 1U;
   }
