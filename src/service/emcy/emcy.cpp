@@ -70,9 +70,9 @@ inline uint32_t bits_of(const CO_EMCY_TBL& error) {
 void update_register(CO_EMCY& emcy) {
   uint32_t bits = emcy.Faults != 0 ? generic | 1U << CO_EMCY_REG_COM : 0U;
   for (uint32_t byte = 0; byte < sizeof emcy.Err; ++byte) {
-    const CO_EMCY_TBL* error = emcy.Root + byte * 8;
-    for (uint32_t set = emcy.Err[byte]; set != 0; set >>= 1, ++error) {
-      bits |= (set & 1U) != 0 ? bits_of(*error) : 0U;
+    uint32_t err = byte * 8;
+    for (uint32_t set = emcy.Err[byte]; set != 0; set >>= 1, ++err) {
+      bits |= (set & 1U) != 0 ? bits_of(emcy.Root[err]) : 0U;
     }
   }
   bits &= UINT8_MAX - (1U << 6);
