@@ -249,6 +249,14 @@ TEST_CASE("error status bits: an error of the stack sends the TPDO when it begin
   node.tx("181#000000");
 }
 
+TEST_CASE("error status bits: bus-off sends the TPDO before the node leaves Operational [O2]") {
+  MappedBits device(1, 1);
+  PdoNode& node = *device.node;
+  node.call([&] { CONodeCanEvent(&node.node, CO_CAN_BUS_OFF); });
+  node.tx("181#002000");
+  CHECK(node.mode() == CO_PREOP);
+}
+
 TEST_CASE("error status bits: COEmcyReset sends the TPDO once [O2]") {
   MappedBits device(1, 0);
   device.set(general);
