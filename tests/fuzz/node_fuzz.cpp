@@ -262,7 +262,7 @@ class Bench {
   std::vector<std::uint32_t> open_transfers() const {
     std::vector<std::uint32_t> devs;
     for (const CO_SDO& server : node_.Sdo) {
-      if (node_.Nmt.Mode != CO_INVALID && server.State != 0) {
+      if (node_.Nmt.Mode != CO_INVALID && server.Flow.State != 0) {
         devs.push_back(server.Key);
       }
     }
