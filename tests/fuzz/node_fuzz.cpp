@@ -517,7 +517,7 @@ class Bench {
     require(node_.Routes.Start[CO_ROUTE_CLASS_N] <= CO_ROUTE_N, "the routes fit their memory");
     require(timers_in_list() <= most_timers, "no timer is in two lists");
     for (const CO_SDO& server : node_.Sdo) {
-      require(server.State == 0 || server.Obj != nullptr || fuzz::source.has_moved,
+      require(server.Flow.State == 0 || server.Obj != nullptr || fuzz::source.has_moved,
               "an open transfer has an object, unless that has moved");
     }
     for (std::size_t n = 0; n < std::size(requests_) && node_.Nmt.Mode != CO_INVALID; ++n) {
@@ -619,7 +619,7 @@ class Bench {
     }
     const CO_MODE mode = mode_of(frame);
     const bool may_be_segment = std::any_of(std::begin(node_.Sdo), std::end(node_.Sdo), [&](const CO_SDO& server) {
-      return server.TxId == frame.Identifier && server.State != 0;
+      return server.TxId == frame.Identifier && server.Flow.State != 0;
     });
     const std::string fault = test::fault_of(frame, node_.NodeId, mode, is_answer(frame));
     return fault.empty() || !may_be_segment ? fault : test::fault_of(frame, node_.NodeId, mode, true, true);
