@@ -63,6 +63,7 @@ SdoBytes SdoClientModel::initiate() {
   done_ = 0;
   toggle_ = 0;
   ackseq_ = 0;
+  has_acknowledged_ = false;
   if (is_upload_) {
     data_.clear();
     SdoBytes frame = head(by_block_ ? 0xA4 : 0x40);
@@ -286,7 +287,7 @@ SdoClientModel::Answer SdoClientModel::receive_block_segment(const SdoBytes& res
     return give_up(wrong_sequence);
   }
   const bool ends = last || number == largest_block;
-  const bool is_repeated = ends && number > 1 && !has_segment_ && ackseq_ != 0;
+  const bool is_repeated = ends && number > 1 && !has_segment_ && has_acknowledged_;
   const bool in_order = number == seq_ + 1;
   has_segment_ = true;
   if (is_repeated) {
@@ -320,6 +321,7 @@ std::uint32_t SdoClientModel::store_segment(const SdoBytes& response) {
 // Acknowledges a block. \a all: it was the last one, and is complete.
 SdoBytes SdoClientModel::acknowledge(bool all) {
   ackseq_ = seq_;
+  has_acknowledged_ = true;
   seq_ = 0;
   has_segment_ = false;
   state_ = all ? State::block_upload_end : State::block_upload;

@@ -94,9 +94,10 @@ class SdoClientModel {
   std::size_t done_ = 0;  // bytes of a download that the server has received, or of an upload before the current block
   std::uint8_t toggle_ = 0;
   std::size_t blksize_ = 0;
-  std::size_t seq_ = 0;       // last segment of the block received in order, or sent
-  std::size_t ackseq_ = 0;    // last segment that was acknowledged
-  bool has_segment_ = false;  // a segment of the block was received
+  std::size_t seq_ = 0;            // last segment of the block received in order, or sent
+  std::size_t ackseq_ = 0;         // last segment that was acknowledged
+  bool has_segment_ = false;       // a segment of the block was received
+  bool has_acknowledged_ = false;  // a block was acknowledged, even if none of its segments were received in order
   bool last_sent_ = false;
 };
 
