@@ -82,7 +82,7 @@ typedef struct CO_SDO_FLOW_T {
   uint8_t State;  ///< state of the protocol; 0: no transfer is open
   uint8_t Flags;  ///< flags of the transfer
   uint8_t Idle;   ///< parts of the time-out without a frame of the transfer
-#if USE_SDO_BLOCK || (USE_CSDO && CO_CSDO_BLOCK > 0)
+#if USE_SDO_BLOCK
   uint8_t Heard;    ///< block received: highest sequence number so far; 0: none
   uint8_t BlkSize;  ///< segments of the current block
   uint8_t Seq;      ///< last segment of the block that was sent, or received in sequence

@@ -51,7 +51,7 @@ class Request {
 // An SDO server channel (CO_SDO) whose Obj is not null has a transfer of this object open. Services and the OD access
 // interface find, compare and end open transfers by these functions only.
 
-// Bits of CO_SDO.Flags that describe the open transfer; the others belong to the SDO server.
+// Bits of CO_SDO.Flow.Flags that describe the open transfer; the others belong to the SDO server.
 enum TransferFlag : uint8_t {
   download = 0x08,  // direction
   begun = 0x40,     // Begin was called: see is_begun()

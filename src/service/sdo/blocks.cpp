@@ -2,7 +2,7 @@
 // Blocks that a server or a client sends or receives, and their repair after lost frames. [301:7.2.4.3.9-15]
 #include "service/sdo/flow.hpp"
 
-#if USE_SDO_BLOCK || CO_CSDO_BLOCK > 0
+#if USE_SDO_BLOCK
 
 namespace co::sdo {
 namespace {

@@ -35,7 +35,7 @@ inline void silence(CO_IF_FRM& frame) { frame.DLC = 0; }
 // Starts the first block of a transfer. initiate: frame of the other side, which tells whether it supports the CRC
 void begin_blocks(CO_SDO_FLOW& flow, const CO_IF_FRM& initiate, uint8_t blksize);
 
-#if USE_SDO_BLOCK || CO_CSDO_BLOCK > 0
+#if USE_SDO_BLOCK
 // Returns the bytes in the buffer that are data, of which an end message tells.
 [[nodiscard]] inline uint32_t last_bytes(const CO_SDO_FLOW& flow, const CO_IF_FRM& end) {
   return flow.Fill - wire::unused_in_block(end.Data[0]);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr bool has_time_out = CO_SDO_TIMEOUT != 0;
 
-// The time-out consists of 8 slices, counted in CO_SDO.Idle. A block download repeats its acknowledge after every
+// The time-out consists of 8 slices, counted in CO_SDO.Flow.Idle. A block download repeats its acknowledge after every
 // second slice without a segment.
 constexpr uint8_t slices = 8;
 constexpr uint8_t reminder_slices = 2;
