@@ -310,6 +310,37 @@ TEST_CASE("SDO client: a repeated last segment is ignored although its first byt
   node.has_read(counted(455));
 }
 
+// Without a CRC only the length distinguishes the end request from the repeated last segment.
+TEST_CASE("SDO client: a repeated last segment that would end with a wrong length is ignored without a CRC [D27]") {
+  struct Case {
+    const char* answer;
+    unsigned segments;
+    std::uint32_t size;
+    const char* acknowledge;
+    const char* end_request;
+  };
+  const Case cases[] = {{"585#C2002005E3010000", 69, 483, "605#A2457F0000000000", "585#C100000000000000"},
+                        {"585#C000200500000000", 65, 450, "605#A2417F0000000000", "585#D500000000000000"}};
+  for (const Case& one : cases) {
+    CAPTURE(one.size);
+    SdoClient node;
+    start(node, one.size, one.answer);
+    send_segments(node, one.segments - 1);
+    CO_IF_FRM last = frame("585#0000000000000000");
+    const Bytes data = counted(7, 7 * (one.segments - 1) + 1);
+    last.Data[0] = static_cast<std::uint8_t>(0x80 + one.segments);
+    std::copy(data.begin(), data.end(), last.Data + 1);
+    node.rx(last);
+    node.tx(one.acknowledge);
+    node.rx(last);
+    node.silent();
+    node.goes_on();
+    node.rx(one.end_request);
+    node.tx("605#A100000000000000");
+    node.has_read(counted(one.size));
+  }
+}
+
 TEST_CASE(
     "SDO client: a server may answer a block request with an expedited upload because of pst [301:7.2.4.3.13] [D13]") {
   struct Case {
