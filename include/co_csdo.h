@@ -81,8 +81,8 @@ CO_CSDO* COCSdoFind(struct CO_NODE_T* node, uint8_t num) CO_NEEDS(USE_CSDO);
 
 /// Starts to read the object \a key (CO_DEV()) of the server into \a buf of \a size bytes. The caller owns the buffer,
 /// which must stay valid until the callback; it may be larger than the object: COCSdoGetNum() returns the number of
-/// bytes read. \a timeout in ms applies to each response of the server (in a block upload up to a quarter more); 0: no
-/// time-out; a time beyond the range of the timer is treated as the longest possible one.
+/// bytes read. \a timeout in ms applies to each response of the server that continues the transfer (in a block upload
+/// up to a quarter more); 0: no time-out; a time beyond the range of the timer is treated as the longest possible one.
 /// \retval CO_ERR_NONE         the transfer has started; \a callback will be called once. On an error it is not called
 /// \retval CO_ERR_BAD_ARG      \a csdo, \a buf or \a callback is null, or \a size is 0
 /// \retval CO_ERR_SDO_OFF      the client is not configured, or the NMT state does not allow SDO

@@ -51,9 +51,8 @@ uint16_t limit_for_application(const CO_TX_QUEUE& queue) {
   return static_cast<uint16_t>(queue.Len - (own < half ? own : half));
 }
 
-// Queues a frame behind those of at most its rank, a frame ahead behind the fixed ones. Not inlined: most frames are
-// sent at once.
-[[gnu::noinline]] bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, unsigned manner) {
+// Queues a frame behind those of at most its rank, a frame ahead behind the fixed ones.
+bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, unsigned manner) {
   CO_TX_QUEUE& queue = node.TxQueue;
   const unsigned is_ahead = manner & ahead;
   if (queue.Num >= ((manner & of_application) != 0 ? limit_for_application(queue) : queue.Len)) {
@@ -97,7 +96,7 @@ CO_IF_FRM* find(const CO_TX_QUEUE& queue, unsigned from, uint32_t identifier) {
 bool survives_reset(const CO_NODE& node, uint32_t identifier) {
   bool is_one = identifier == 0;
   for (const CO_SDO& server : node.Sdo) {
-    is_one = is_one || server.TxId == identifier;
+    is_one = is_one || server.TxId == identifier || server.WasTxId == identifier;
   }
   return is_one;
 }
@@ -122,17 +121,16 @@ bool send(CO_NODE& node, const CO_IF_FRM& frame) { return send_as(node, frame, 0
 
 bool send_as(CO_NODE& node, const CO_IF_FRM& frame, unsigned manner) {
   const unsigned is_ahead = manner & ahead;
+  bool is_next = true;
   if (is_waiting(node)) {
     CO_IF_FRM* const waiting = find_waiting(node, frame.Identifier);
     if (waiting != nullptr && (manner & replaces) != 0) {
       *waiting = frame;
       return true;
     }
-    if ((is_ahead != 0 ? node.TxQueue.Fixed : node.TxQueue.Num) != 0) {
-      return enqueue(node, frame, manner);
-    }
+    is_next = (is_ahead != 0 ? node.TxQueue.Fixed : node.TxQueue.Num) == 0;
   }
-  return offer_to_driver(node, frame, is_ahead) || enqueue(node, frame, manner);
+  return (is_next && offer_to_driver(node, frame, is_ahead)) || enqueue(node, frame, manner);
 }
 
 CO_IF_FRM* find_waiting(CO_NODE& node, uint32_t identifier) {

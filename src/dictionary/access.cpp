@@ -55,9 +55,9 @@ void close_moved(CO_NODE& node) {
   }
 }
 
-bool is_open(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by) {
+bool is_open(const CO_NODE& node, const CO_OBJ& obj) {
   for (const CO_SDO& channel : node.Sdo) {
-    if (&channel != by && channel.Obj == &obj) {
+    if (channel.Obj == &obj) {
       return true;
     }
   }

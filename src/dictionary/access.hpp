@@ -85,8 +85,8 @@ void end_transfers(CO_NODE& node, Condition is_ended) {
 // called with another table. The server then aborts the transfer (0800 0022h).
 void close_moved(CO_NODE& node);
 
-// Returns whether an SDO server channel other than by has the object open. by: null if every channel counts.
-[[nodiscard]] bool is_open(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by);
+// Returns whether an SDO server channel has the object open.
+[[nodiscard]] bool is_open(const CO_NODE& node, const CO_OBJ& obj);
 
 #if USE_OD
 // Returns the size in bytes of the download to the object that an SDO server channel has open; it is known once the

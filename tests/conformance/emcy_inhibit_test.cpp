@@ -114,6 +114,29 @@ TEST_CASE("1015h: queued messages are neither sent in Stopped nor after it [E9] 
   CHECK(node.error_register() == 0x0B);
 }
 
+TEST_CASE(
+    "1015h: messages that are queued in the inhibit time remain if 1014h is written with the same value [E5] [E6]") {
+  EmcyNode node(Setup().emergencies(errors_of_device()), 1000);
+  node.set(current);
+  node.tx("081#0020030000000000");
+  node.clr(current);
+  node.ask("601#2314100081000000", "581#6014100000000000");
+  node.after(100ms);
+  node.tx("081#0000000000000000");
+}
+
+TEST_CASE("1015h: an error without an identifier in the inhibit time is not sent when there is one again [E5] [E6]") {
+  EmcyNode node(Setup().emergencies(errors_of_device()), 1000);
+  node.set(current);
+  node.tx("081#0020030000000000");
+  node.ask("601#2314100081000080", "581#6014100000000000");
+  node.clr(current);
+  node.ask("601#2314100081000000", "581#6014100000000000");
+  node.after(100ms);
+  node.silent();
+  CHECK(node.counters().Dropped == 0);
+}
+
 TEST_CASE("1015h: the inhibit time runs in Stopped [E6]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 10000);
   node.set(current);

@@ -91,6 +91,29 @@ TEST_CASE("SDO block upload: each acknowledge may change the blksize [D12]") {
   node.silent();
 }
 
+// A client that waits for the end message repeats its last acknowledge.
+TEST_CASE("SDO block upload: an acknowledge after the end is ignored and does not restart the time-out [D11] [D18]") {
+  Fixture node;
+  node.ask("601#A400210F02000000", "581#C600210F0F000000");
+  node.rx("601#A300000000000000");
+  node.tx({"581#0101020304050607", "581#0208090A0B0C0D0E"});
+  node.ask("601#A202020000000000", "581#810F000000000000");
+  node.ask("601#A201020000000000", "581#D93D510000000000");
+  node.after(node.sdo_time_out() / 2);
+  node.rx("601#A201020000000000");
+  node.silent();
+  SUBCASE("the client confirms") {
+    node.rx("601#A100000000000000");
+    node.silent();
+    node.rx("601#A100000000000000");
+    node.tx("581#8000000001000405");
+  }
+  SUBCASE("the client is silent") {
+    node.after(node.sdo_time_out() / 2);
+    node.tx("581#8000210F00000405");
+  }
+}
+
 TEST_CASE("SDO block upload: a blksize of 1 works [D12]") {
   Fixture node;
   node.ask("601#A400210F01000000", "581#C600210F0F000000");

@@ -254,15 +254,41 @@ TEST_CASE("SDO client: an abort of the server in a block download is reported an
   two.ended(CO_SDO_ERR_CRC);
 }
 
-TEST_CASE("SDO client: an acknowledge after the end is refused with 0504 0001h") {
+// A server that waits for the end message repeats its last acknowledge.
+TEST_CASE("SDO client: an acknowledge after the end is ignored and does not restart the time-out [D11] [D18]") {
   SdoClient node;
   start(node, "585#A40020057F000000");
   send_all(node);
   node.rx("585#A2067F0000000000");
   node.tx("605#C9C38B0000000000");
+  node.after(999ms);
   node.rx("585#A2067F0000000000");
-  node.tx("605#8000200501000405");
-  node.ended(CO_SDO_ERR_CMD);
+  node.silent();
+  node.goes_on();
+  SUBCASE("the server confirms") {
+    node.rx("585#A100000000000000");
+    node.silent();
+    CHECK(node.has_written().num == 40);
+  }
+  SUBCASE("the server is silent") {
+    node.after(1ms);
+    node.tx("605#8000200500000405");
+    node.ended(CO_SDO_ERR_TIMEOUT);
+  }
+}
+
+TEST_CASE("SDO client: repeated responses to the initiate do not restart the time-out [D18]") {
+  SdoClient node;
+  start(node, "585#A40020057F000000");
+  send_all(node);
+  node.after(600ms);
+  node.rx("585#A40020057F000000");
+  node.after(399ms);
+  node.silent();
+  node.goes_on();
+  node.after(1ms);
+  node.tx("605#8000200500000405");
+  node.ended(CO_SDO_ERR_TIMEOUT);
 }
 
 TEST_CASE("SDO client: block downloads of sizes around the limits are complete for every blksize") {

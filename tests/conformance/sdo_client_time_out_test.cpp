@@ -78,6 +78,22 @@ TEST_CASE("SDO client: each answer of the server restarts the time-out") {
   CHECK(node.ended(CO_SDO_ERR_TIMEOUT).num == 7);
 }
 
+TEST_CASE("SDO client: segments without data do not restart the time-out [D18]") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 28, 100);
+  node.tx("605#4000200500000000");
+  node.rx("585#410020051C000000");
+  node.tx("605#6000000000000000");
+  node.after(60ms);
+  node.rx("585#0E00000000000000");
+  node.tx("605#7000000000000000");
+  node.after(39ms);
+  node.silent();
+  node.after(1ms);
+  node.tx(time_out_abort);
+  CHECK(node.ended(CO_SDO_ERR_TIMEOUT).num == 0);
+}
+
 TEST_CASE("SDO client: a time-out of 0 disables it in every state") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
@@ -208,6 +224,23 @@ std::vector<std::uint64_t> acknowledges_in_silence(SdoClient& node, const std::s
     times.push_back(std::stoul(line));
   }
   return times;
+}
+
+TEST_CASE("SDO client: blocks without a segment in order do not restart the time-out [D18]") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 1000, 1000);
+  node.tx("605#A40020057F1C0000");
+  node.rx("585#C600200514000000");
+  node.tx("605#A300000000000000");
+  std::vector<std::string> sent;
+  for (unsigned n = 0; n < 12 && sent.empty(); ++n) {
+    node.rx("585#0208090A0B0C0D0E");
+    node.rx("585#7F08090A0B0C0D0E");
+    node.after(250ms);
+    sent = without_acknowledges(node.frames());
+  }
+  CHECK(sent == std::vector<std::string>{time_out_abort});
+  CHECK(node.ended(CO_SDO_ERR_TIMEOUT).num == 0);
 }
 
 void read_some(SdoClient& node, unsigned taken) {

@@ -154,6 +154,16 @@ TEST_CASE("SDO stream types: End changes the COB-IDs: queued answers keep their 
   check_has_moved(node, "end down 0");
 }
 
+TEST_CASE("SDO stream types: End changes the COB-IDs: a reset by the application sends queued answers first [N8]") {
+  Moving node;
+  node.can.refuse_all();
+  node.rx("690#2F00300011000000");
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
+  node.can.accept_all();
+  node.loop();
+  node.tx({"6A0#6000300000000000", "701#00"});
+}
+
 TEST_CASE("SDO stream types: End changes the COB-IDs: NMT stop withdraws answers queued with the old CAN-ID [N8]") {
   Moving node;
   node.can.refuse_all();

@@ -164,7 +164,11 @@ SdoClientModel::Answer SdoClientModel::answer_in_state(const SdoBytes& response)
         return std::nullopt;
       }
       return command == 0xA2 ? block_confirmed(response) : give_up(unknown_command);
-    case State::block_download_end: return command == 0xA1 ? finish(0) : give_up(unknown_command);
+    case State::block_download_end:
+      if (command == 0xA2) {  // repeated by a server that is waiting for the end
+        return std::nullopt;
+      }
+      return command == 0xA1 ? finish(0) : give_up(unknown_command);
     default: return give_up(unknown_command);
   }
 }

@@ -274,7 +274,7 @@ void add_block_download(States& all) {
                  request,
                  {initiated, acknowledged, {"585#A202010000000000", {"605#C900000000000000"}}},
                  "00000004000000",
-                 {{"A1", {}, done}, {"80", {}, 0x00000004}, unknown}});
+                 {{"A1", {}, done}, {"A2", {}, goes_on_code}, {"80", {}, 0x00000004}, unknown}});
 }
 
 #endif

@@ -52,6 +52,9 @@ std::optional<SdoBytes> SdoServerModel::answer(const SdoBytes& request) {
   if (state_ == State::block_download_end && request == last_segment_ && !is_right_end(request)) {
     return std::nullopt;
   }
+  if (state_ == State::block_upload_end && request[0] == 0xA2) {  // repeated by a client that is waiting for the end
+    return std::nullopt;
+  }
   idle_ = 0;
   return answer_by_command(request);
 }

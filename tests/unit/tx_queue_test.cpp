@@ -80,6 +80,15 @@ TEST_CASE("transmit queue: if it is full of the node's own frames a further one 
   CHECK(released(node) == Frames{"581#4300100091010F00", "581#4300100091010F00"});
 }
 
+TEST_CASE("transmit queue: if it is full of responses from before a reset the boot-up message replaces the last one") {
+  Fixture node(Setup().tx_queue(2));
+  node.can.refuse_all();
+  for (int i = 0; i < 2; ++i) node.rx("601#4000100000000000");
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
+  CHECK(node.counters().Dropped == 1);
+  CHECK(released(node) == Frames{"581#4300100091010F00", "701#00"});
+}
+
 TEST_CASE("transmit queue: frames that a driver refuses are sent later") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();

@@ -68,7 +68,7 @@ uint32_t size_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type) {
 // caller. A stream of the application allows one access at a time.
 bool is_in_sdo_transfer(const OD_stream_t& stream) {
   const CO_NODE& node = *stream.Owner;
-  return access::requested_object(node) != stream.Entry && access::is_open(node, *stream.Entry, nullptr);
+  return access::requested_object(node) != stream.Entry && access::is_open(node, *stream.Entry);
 }
 
 // Sets the position of a stream of the application to dataOffset. At position 0 also opens the stream, like an SDO

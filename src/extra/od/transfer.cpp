@@ -36,8 +36,7 @@ bool is_extensible_of(const OD_t& od, uint16_t index, const CO_OBJ* obj) {
 
 // Returns whether an OD_TRANSFER can be used for another SDO transfer.
 bool is_free(const CO_NODE& node, const OD_TRANSFER& transfer) {
-  return transfer.Entry == nullptr ||
-         (!has(transfer, in_application) && !access::is_open(node, *transfer.Entry, nullptr));
+  return transfer.Entry == nullptr || (!has(transfer, in_application) && !access::is_open(node, *transfer.Entry));
 }
 
 // Returns the SDO transfer of an object at index that is being processed, or null. The node, which may not be
@@ -78,7 +77,7 @@ OD_TRANSFER* first_transfer(OD_t& od, const CO_OBJ& obj) {
 
 OD_TRANSFER* find_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj) {
   OD_TRANSFER* const transfer = first_transfer(od, obj);
-  const bool is_closed = transfer != nullptr && has(*transfer, by_server) && !access::is_open(node, obj, nullptr);
+  const bool is_closed = transfer != nullptr && has(*transfer, by_server) && !access::is_open(node, obj);
   return is_closed ? nullptr : transfer;
 }
 
@@ -104,7 +103,7 @@ OD_TRANSFER* begin_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj, ui
 
 void mark_if_of_server(OD_TRANSFER& transfer, const CO_NODE& node) {
   CO_ASSERT(transfer.Entry != nullptr);
-  if (access::is_open(node, *transfer.Entry, nullptr)) {
+  if (access::is_open(node, *transfer.Entry)) {
     set(transfer, by_server);
   }
 }

@@ -305,7 +305,7 @@ void on_remap(CO_NODE& node) {
   }
   for (CO_RECORDER* recorder = node.Recorders.First; recorder != nullptr; recorder = recorder->Next) {
     const CO_OBJ* const obj = dict::find(node, recorder->Plot.Key);
-    if (obj == nullptr || !access::is_open(node, *obj, nullptr)) {
+    if (obj == nullptr || !access::is_open(node, *obj)) {
       recorder->Plot.Reading = 0;
     }
   }

@@ -85,6 +85,11 @@ bool is_for_another(const CO_CSDO& client, const CO_IF_FRM& frame) {
   return frame.Data[0] != wire::abort_command || (key != 0 && Abort{wire::get_high(frame)} != Abort::command);
 }
 
+// Returns whether a server that waits for the end message of a block download repeats its acknowledge.
+bool is_repeated(const CO_CSDO& client, const CO_IF_FRM& frame) {
+  return has_block && state_of(client) == State::block_download_end && frame.Data[0] == wire::acknowledge_block;
+}
+
 // Returns the kind of a response. Segments of a block have no command specifier: the state decides.
 Response response_in(const CO_CSDO& client, const CO_IF_FRM& frame) {
   const uint8_t command = frame.Data[0];
@@ -159,9 +164,11 @@ CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CS
 // An idle client ignores frames: responses to other clients with the same COB-IDs, and late responses. Not inlined:
 // relative to a pointer to the client, all members are reached by short loads.
 [[gnu::noinline]] void process_response(CO_CSDO& client, const CO_IF_FRM& response) {
-  if (client.State != CO_CSDO_STATE_BUSY || is_for_another(client, response)) {
+  if (client.State != CO_CSDO_STATE_BUSY || is_for_another(client, response) || is_repeated(client, response)) {
     return;
   }
+  const uint32_t num = client.Flow.Num;
+  const uint8_t state = client.Flow.State;
   CO_IF_FRM request = wire::empty_frame(client.TxId);
   Step step = {client, response, request, false};
   const Abort abort = state_machine(state_of(client), response_in(client, response))(step);
@@ -177,13 +184,9 @@ CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CS
     return;
   }
   if constexpr (has_block) {
-    if (state_of(client) == State::block_download) {
-      send_segments(client);
-      start_timeout(client);
-      return;
-    }
+    send_segments(client);
   }
-  if (request.DLC != 0) {
+  if (client.Flow.Num != num || client.Flow.State != state) {  // frames without progress do not restart the time-out
     client.Flow.Idle = 1;
     start_timeout(client);
   }

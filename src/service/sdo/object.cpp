@@ -151,7 +151,7 @@ void restart(CO_SDO& channel, const CO_IF_FRM& request) {
 
 Abort begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
   CO_NODE& node = *channel.Node;
-  if (access::is_open(node, obj, &channel)) {
+  if (access::is_open(node, obj)) {
     return Abort::device_state;
   }
   if (obj::extended(obj) == nullptr) {

@@ -110,10 +110,13 @@ inline void run_handler(CO_SDO& channel, Handler handler, const CO_IF_FRM& reque
   if (has_block && in_block && !store_in_block(channel, frame)) {
     return true;
   }
+  const Request request = in_block ? Request::block_segment : wire::request_of(frame.Data[0]);
+  if (has_block && request == Request::acknowledge_block && state_of(channel) == State::block_upload_end) {
+    return true;  // repeated, because the client waits for the end message
+  }
   if (!in_block) {
     channel.Flow.Idle = 0;
   }
-  const Request request = in_block ? Request::block_segment : wire::request_of(frame.Data[0]);
   run_handler(channel, state_machine(state_of(channel), request), frame, found);
   return true;
 }
