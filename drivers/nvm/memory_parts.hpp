@@ -6,7 +6,6 @@
 
 #include <stdint.h>
 
-#include "co_cfg.h"
 #include "co_if_nvm.h"
 
 /// Internals of the drivers of non-volatile memory.
@@ -42,14 +41,11 @@ uint32_t for_parts(uint32_t start, uint32_t size, uint32_t boundary, Function tr
 }
 
 /// Geometry of an EEPROM or FRAM. A loss of power in a write cycle can damage the whole page, so that the slots of a
-/// record must not share a page: a page is programmed as one unit if it fits CO_STORE_BUFFER; otherwise it is erased
-/// first, like that of a flash memory. \a page: bytes, 0: FRAM.
-constexpr CO_NVM_SHAPE shape_of_pages(uint32_t capacity, uint32_t page) {
-  if (page == 0) {
-    return {capacity, 1, 0};
-  }
-  const uint32_t whole = capacity - capacity % page;
-  return page <= CO_STORE_BUFFER ? CO_NVM_SHAPE{whole, page, 0} : CO_NVM_SHAPE{whole, 1, page};
+/// record must not share a page: a page that is larger than a unit of programming is erased first, like that of a flash
+/// memory. \a page: bytes, 0: FRAM; \a program: bytes of a unit of programming, CO_EEPROM_PROGRAM(page).
+constexpr CO_NVM_SHAPE shape_of_pages(uint32_t capacity, uint32_t page, uint32_t program) {
+  const uint32_t whole = page == 0 ? capacity : capacity - capacity % page;
+  return {whole, program, program < page ? page : 0};
 }
 
 }  // namespace co::nvm

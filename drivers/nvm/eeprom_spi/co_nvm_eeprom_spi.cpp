@@ -176,7 +176,7 @@ bool erase(void* ctx, uint32_t start, uint32_t size) {
 
 CO_NVM_SHAPE shape(void* ctx) {
   const CO_EEPROM_SPI& eeprom = memory(ctx);
-  return co::nvm::shape_of_pages(capacity_of(eeprom), eeprom.PageSize);
+  return co::nvm::shape_of_pages(capacity_of(eeprom), eeprom.PageSize, CO_EEPROM_PROGRAM(eeprom.PageSize));
 }
 
 }  // namespace
