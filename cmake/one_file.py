@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the library as one source: lexican.cpp, lexican.h and lexican_config.h.
+"""Writes the library as one source: lexican.cpp, lexican.h, lexican_config.h and, for drivers, co_cfg.h.
 
-usage: one_file.py DIRECTORY [PRESET]
-
-Creates the directory if needed. lexican_config.h chooses PRESET, by default slave. docs/integrate.md describes the use.
+docs/integrate.md describes the use.
 """
+import argparse
 import pathlib
 import re
 import sys
@@ -159,9 +158,15 @@ def config(preset):
     return "\n".join(lines) + text_of(ROOT / "config/co_cfg.h").replace("/// \\file co_cfg.h\n", "", 1)
 
 
-def main(directory, preset="slave"):
-    if preset not in PRESETS:
-        fail(f"no preset {preset}; use one of {', '.join(PRESETS)}")
+def write(path, text):
+    """Writes a file. Settings that were edited are kept."""
+    if path.name == CONFIG and path.exists() and path.read_text(encoding="utf-8") != text:
+        print(f"one_file.py: {path} differs and is kept; the new one is {CONFIG}.new")
+        path = path.with_name(f"{CONFIG}.new")
+    path.write_text(text, encoding="utf-8")
+
+
+def main(directory, preset):
     api = Writer(is_internal=False)
     for path in headers():
         api.include(path)
@@ -175,15 +180,19 @@ def main(directory, preset="slave"):
     version = re.search(r"lexican VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
     texts = {
         CONFIG: ("the settings. Edit this file.", config(preset)),
+        "co_cfg.h": ("the settings, for drivers.", f'#include "{CONFIG}"\n'),
         "lexican.h": ("the API, for C and C++.", "\n".join(api.lines) + "\n"),
         "lexican.cpp": ("the library, in C++17.", HEAD + "\n".join(code.lines) + "\n"),
     }
-    pathlib.Path(directory).mkdir(parents=True, exist_ok=True)
+    directory.mkdir(parents=True, exist_ok=True)
     for name, (title, text) in texts.items():
-        (pathlib.Path(directory) / name).write_text(TITLE.format(version, title) + text, encoding="utf-8")
+        write(directory / name, TITLE.format(version, title) + text)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3):
-        fail("usage: one_file.py DIRECTORY [PRESET]")
-    main(*sys.argv[1:])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory", type=pathlib.Path, metavar="DIRECTORY", help="is created if needed")
+    parser.add_argument("preset", nargs="?", default="slave", choices=PRESETS, metavar="PRESET",
+                        help=f"preset in {CONFIG}: {', '.join(PRESETS)}; default: %(default)s")
+    arguments = parser.parse_args()
+    main(arguments.directory, arguments.preset)

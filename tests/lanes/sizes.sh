@@ -76,6 +76,7 @@ size_of_node() {  # CPU PRESET
 # most 1 % larger than with the library and LTO; a C program is linked without the C++ run time.
 sizes_of_one_file() {
   local preset
+  rm -rf "$build/one_file"
   python3 "$root/cmake/one_file.py" "$build/one_file" || return
   check "the library as one file, with the defaults of the compiler" "$tools-g++" -c -Wall -Wextra -Werror \
     "$build/one_file/lexican.cpp" -o "$of.o"

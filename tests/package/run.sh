@@ -39,15 +39,31 @@ with_drivers() {
   grep -x ' 500 ms, node 5: 705 7F' "$directory/said"
 }
 
-# The three files of docs/integrate.md, written afresh, with the defaults of the compiler.
+# The files of docs/integrate.md, written afresh, with the defaults of the compiler; with them the drivers.
 one_file() {
+  local driver
   python3 "$source/cmake/one_file.py" "$directory"
   for preset in 1 3 2; do
     g++ -c -Os -Wall -Wextra -Werror -DLEXICAN_PRESET=$preset "$directory/lexican.cpp" -o "$directory/lexican.o"
   done
   if nm -C "$directory/lexican.o" | grep ' [BDRTVW] co::'; then return 1; fi
+  for driver in "$source"/drivers/template/*.c "$source"/drivers/*/*/*.cpp; do
+    gcc -fsyntax-only -Wall -Wextra -Werror -I "$source/include" -I "$directory" "$driver"
+  done
+  edited_settings_are_kept
   sed 's/co_core\.h/lexican.h/' "$program" >"$directory/main.c"
   build_and_refuse "${compiler[@]}" -Wall -Wextra -Werror "$directory/main.c" "$directory/lexican.o"
+}
+
+edited_settings_are_kept() {
+  sed -i '/^#define LEXICAN_PRESET/s/2/1/' "$directory/lexican_config.h"
+  cp "$directory/lexican_config.h" "$directory/edited"
+  python3 "$source/cmake/one_file.py" "$directory" | grep -F 'lexican_config.h.new'
+  cmp "$directory/edited" "$directory/lexican_config.h"
+  grep -x '#define LEXICAN_PRESET 2' "$directory/lexican_config.h.new"
+  mv "$directory/lexican_config.h.new" "$directory/lexican_config.h"
+  python3 "$source/cmake/one_file.py" "$directory" | cmp - /dev/null
+  [ ! -e "$directory/lexican_config.h.new" ]
 }
 
 library=$(dirname "$(find "$prefix" -name liblexican.a)")
