@@ -71,7 +71,7 @@ typedef struct CO_CSDO_T {
   CO_CSDO_CALLBACK_T Call;  ///< callback of the transfer
   uint8_t* Buf;             ///< buffer, owned by the caller
   uint32_t Key;             ///< CO_DEV() of the object
-  uint32_t Ticks;           ///< time-out in ticks; 0: none. Also the result of a cancelled access to the own dictionary
+  uint32_t Ticks;           ///< time-out in ticks; 0: none
   CO_TMR_MEM Tmr;           ///< time-out, or start of an access to the own dictionary
 } CO_CSDO;
 

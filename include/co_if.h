@@ -71,8 +71,8 @@ void COIfCanEnable(CO_IF* cif, uint32_t baud);
 int16_t COIfCanRead(CO_IF* cif, CO_IF_FRM* frm);
 /// Sends a frame of the application, in any NMT state; in CO_INIT the frame is queued until the boot-up message is
 /// sent. The transmit queue is ordered by priority. Up to half of it (at most one frame for each SDO server and client,
-/// and one more) is reserved for the node's own frames. After a driver error the frame stays in the queue and the
-/// node's error is CO_ERR_IF_CAN_SEND.
+/// and two more, for an EMCY message and a heartbeat) is reserved for the node's own frames. After a driver error the
+/// frame stays in the queue and the node's error is CO_ERR_IF_CAN_SEND.
 /// \retval sizeof(CO_IF_FRM)  the frame is sent or queued
 /// \retval 0                  the queue is full; the frame is counted as dropped
 /// \retval -1                 an argument is null, the node is in CO_INVALID, or the DLC is above 15 (counted as

@@ -66,8 +66,8 @@ void refresh(CO_CSDO& client);
 void start_timeout(CO_CSDO& client);
 
 // Ends the transfer and calls its callback. Must be the last action of its caller: the callback may start the next
-// transfer. While type functions of an access to the own dictionary may be running, only stores the abort code: the
-// callback is called after them.
+// transfer. An access to the own dictionary whose type functions may be running is cancelled by
+// cancel_running_own_access() instead.
 void finish(CO_CSDO& client, Abort code);
 
 // Ends the transfer, and sends an abort to the server if SDO is allowed. Must be the last action: the callback may
