@@ -117,11 +117,11 @@ inline Abort abort_code_in(const CO_IF_FRM& frame) {
   return code != Abort::none ? code : Abort::general;
 }
 
-// Command bytes of the responses of a server.
 // Properties of the four initiate requests.
 constexpr bool initiates_block(uint8_t command) { return (command & 0x80) != 0; }
 constexpr bool initiates_upload(uint8_t command) { return ((command ^ (command << 1)) & 0x80) != 0; }
 
+// Command bytes of the responses of a server.
 inline constexpr uint8_t initiate_download_response = 0x60;
 constexpr uint8_t initiate_upload_response(bool sized) { return sized ? 0x41 : 0x40; }
 constexpr uint8_t expedited_upload_response(uint32_t length) {

@@ -112,7 +112,7 @@ void add_to_history(CO_EMCY& emcy, uint32_t entry) {
 }
 
 // Sends a message with the error register. low, high: its other bytes, as in wire::emcy()
-void post(CO_EMCY& emcy, uint32_t low, uint32_t high) {
+void send_with_register(CO_EMCY& emcy, uint32_t low, uint32_t high) {
   if (event::is_allowed(*emcy.Node, CO_EMCY_ALLOWED)) {
     send_message(*emcy.Node, low | uint32_t{emcy.Register} << 16, high);
   }
@@ -141,12 +141,12 @@ void report_change(CO_EMCY& emcy, const CO_EMCY_TBL& error, bool come, const CO_
     add_to_history(emcy, entry);
   }
   update_register(emcy);
-  post(emcy, low, high);
+  send_with_register(emcy, low, high);
   show_bits(emcy);
 }
 
 // Sets or clears an error of the application. If there is no such error, that is the node's error. usr: may be null
-void change(CO_EMCY* emcy, unsigned err, bool come, const CO_EMCY_USR* usr) {
+void change_error(CO_EMCY* emcy, unsigned err, bool come, const CO_EMCY_USR* usr) {
   ASSERT_PTR_FATAL(emcy);
   ASSERT_PTR_FATAL(emcy->Node);
   CO_NODE& node = *emcy->Node;
@@ -168,7 +168,7 @@ void report_fault(CO_EMCY& emcy, uint16_t code, uint32_t detail) {
   if (code != CO_EMCY_CODE_NO_ERR) {
     add_to_history(emcy, code);
   }
-  post(emcy, code, detail << 8);
+  send_with_register(emcy, code, detail << 8);
 }
 
 // Faults without an event that ends them -----------------------------------------------------------------------------
@@ -312,9 +312,9 @@ uint32_t identifier(CO_NODE& node) {
 
 extern "C" {
 
-void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) { co::emcy::change(emcy, err, true, usr); }
+void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) { co::emcy::change_error(emcy, err, true, usr); }
 
-void COEmcyClr(CO_EMCY* emcy, uint8_t err) { co::emcy::change(emcy, err, false, nullptr); }
+void COEmcyClr(CO_EMCY* emcy, uint8_t err) { co::emcy::change_error(emcy, err, false, nullptr); }
 
 int16_t COEmcyGet(CO_EMCY* emcy, uint8_t err) {
   ASSERT_PTR_ERR(emcy, -1);

@@ -29,7 +29,7 @@ uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) {
 }
 
 // Adds an error to the ring. Value of CO_EMCY_HIST.Add, so that only programs with 1003h link it.
-void add(CO_NODE* node_pointer, uint32_t entry) {
+void add_error(CO_NODE* node_pointer, uint32_t entry) {
   CO_NODE& node = *node_pointer;
   CO_EMCY_HIST& history = node.Emcy.Hist;
   if (history.Max == 0) {
@@ -56,7 +56,7 @@ CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
     return err == CO_ERR_NONE && !has_entries ? CO_ERR_TYPE_INIT : err;
   }
   uint8_t& found = node->Emcy.Hist.Found;
-  node->Emcy.Hist.Add = add;
+  node->Emcy.Hist.Add = add_error;
   const bool has_data = uintptr_t{obj->Data} != 0;
   found = has_data && (sub == 1 || sub == found + 1) ? sub : found;
   return dict::check_type(*obj, *node, rules::emcy_history);

@@ -53,17 +53,17 @@ Abort transfer_expedited(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request,
 }
 
 #if USE_SDO_BLOCK
-void begin_blocks(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+void answer_block_initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
   uint8_t blksize = request.Data[4];
   if (has(channel.Flow, download)) {
     blksize = CO_SDO_BUF_SEG;
     answer.Data[4] = blksize;
   }
   channel.Summed = 0;
-  sdo::begin_blocks(channel.Flow, request, blksize);
+  begin_blocks(channel.Flow, request, blksize);
 }
 #else
-void begin_blocks(CO_SDO&, const CO_IF_FRM&, CO_IF_FRM&) {}
+void answer_block_initiate(CO_SDO&, const CO_IF_FRM&, CO_IF_FRM&) {}
 #endif
 
 // Starts a segmented or a block transfer.
@@ -89,7 +89,7 @@ Abort begin_longer(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_FRM&
     wire::put_high(answer, is_known ? channel.Flow.Size : 0);
   }
   if (has_block && by_block && abort == Abort::none) {
-    begin_blocks(channel, request, answer);
+    answer_block_initiate(channel, request, answer);
   }
   return abort;
 }

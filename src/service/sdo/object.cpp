@@ -74,7 +74,7 @@ Abort learn_size(CO_SDO& channel, uint32_t position) {
 }
 
 // Calls Read or Write; access::check() has checked that the type has the function.
-inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
+inline CO_ERR call_read_or_write(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   CO_NODE& node = *channel.Node;
   if (!has(channel.Flow, download)) {
     return obj.Type->Read(&obj, &node, data, n);
@@ -174,7 +174,7 @@ Abort begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   }
   CO_ERR err = obj::is_stream(obj) ? obj::seek(obj, *channel.Node, 0) : CO_ERR_NONE;
   if (err == CO_ERR_NONE) {
-    err = run(channel, obj, data, n);
+    err = call_read_or_write(channel, obj, data, n);
   }
   if (swaps && !has(channel.Flow, download)) {
     wire::swap_host(data, n);
@@ -201,7 +201,7 @@ Abort transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t
       return Abort::device_state;
     }
     if (err == CO_ERR_NONE) {
-      err = run(channel, *channel.Obj, data, n);
+      err = call_read_or_write(channel, *channel.Obj, data, n);
     }
   }
   channel.Read = position + n;

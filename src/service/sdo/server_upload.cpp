@@ -50,12 +50,12 @@ void add_sent_to_crc(CO_SDO& channel, uint32_t position) {
 }
 
 // Pauses the transfer until the next call of CONodeProcess() or COTmrProcess().
-void pause(CO_NODE& node) {
+void pause_transfer(CO_NODE& node) {
   node.Transmit.Paused = 1;
   node.Transmit.Burst = CO_SDO_BLOCK_PACE;
 }
 
-Abort load(CO_SDO& channel, uint32_t position) {
+Abort load_window(CO_SDO& channel, uint32_t position) {
   if (channel.Obj == nullptr) {
     return Abort::device_state;
   }
@@ -65,7 +65,7 @@ Abort load(CO_SDO& channel, uint32_t position) {
   const Abort abort = transfer_piece(channel, position, buffer_of(channel), n);
   if (has(channel.Flow, behind)) {
     channel.Flow.Fill = 0;
-    pause(*channel.Node);
+    pause_transfer(*channel.Node);
     return Abort::none;
   }
   channel.Flow.Fill = static_cast<uint16_t>(channel.Read - position);
@@ -77,11 +77,11 @@ Abort load(CO_SDO& channel, uint32_t position) {
 
 // Returns whether the segment at the position is in the buffer, after reading it if necessary. Otherwise abort is the
 // reason, if SDO is still allowed.
-bool provide(CO_SDO& channel, uint32_t position, Abort& abort) {
+bool provide_segment(CO_SDO& channel, uint32_t position, Abort& abort) {
   if (channel.Read - position - 1 < channel.Flow.Fill || position >= channel.Flow.Size) {
     return true;
   }
-  abort = load(channel, position);
+  abort = load_window(channel, position);
   const bool is_there = abort == Abort::none && !has(channel.Flow, behind);
   clear(channel.Flow, behind);
   return is_there && event::is_allowed(*channel.Node, CO_SDO_ALLOWED);
@@ -104,7 +104,7 @@ Abort send_segments(CO_SDO& channel) {
   Abort abort = Abort::none;
   uint32_t position = channel.Flow.Num + channel.Flow.Seq * wire::segment_bytes;
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);
-  while (channel.Flow.Seq != channel.Flow.BlkSize && provide(channel, position, abort)) {
+  while (channel.Flow.Seq != channel.Flow.BlkSize && provide_segment(channel, position, abort)) {
     const uint32_t left = channel.Read - position;
     fill_segment(frame, buffer_of(channel) + channel.Flow.Fill - left, left);
     position += smaller(wire::segment_bytes, left);
