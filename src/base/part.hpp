@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A part of the stack, as the rest of the stack knows it: its functions for the events of a node. Parts do not call
-// each other, except that pdo calls mpdo, which extends it.
+// The interface of a part of the stack: its functions for the events of a node. Parts do not call each other, except
+// that pdo calls mpdo, which extends it.
 #pragma once
 
 #include "base/events.hpp"

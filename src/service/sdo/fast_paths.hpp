@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Requests that a server answers at once, because they call no type function: expedited transfers of numbers that their
-// variables hold as the bus transfers them, which leave no state, and segments in sequence.
+// variables hold as the bus transfers them, which leave no state, and segments in sequence. By the state machine alone
+// an expedited upload or download takes 442 or 493 instructions (Cortex-M3), where the limit is 330.
 #pragma once
 
 #include "base/access_hook.hpp"

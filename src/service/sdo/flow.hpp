@@ -32,11 +32,11 @@ inline void silence(CO_IF_FRM& frame) { frame.DLC = 0; }
 
 // Blocks (USE_SDO_BLOCK, CO_CSDO_BLOCK) -------------------------------------------------------------------------------
 
-// Starts the first block of a transfer. initiate: frame of the other side, which tells whether it supports the CRC
+// Starts the first block of a transfer. initiate: frame of the other side, with the bit of its support of the CRC
 void begin_blocks(CO_SDO_FLOW& flow, const CO_IF_FRM& initiate, uint8_t blksize);
 
 #if USE_SDO_BLOCK
-// Returns the bytes in the buffer that are data, of which an end message tells.
+// Returns the number of bytes of data in the buffer. end: the end message, which contains the number of unused bytes
 [[nodiscard]] inline uint32_t last_bytes(const CO_SDO_FLOW& flow, const CO_IF_FRM& end) {
   return flow.Fill - wire::unused_in_block(end.Data[0]);
 }
