@@ -147,8 +147,7 @@ def headers():
 
 
 def sources():
-    names = re.search(r"set\(sources([^)]*)\)", (ROOT / "src/CMakeLists.txt").read_text(encoding="utf-8"))[1].split()
-    return [ROOT / "src" / name for name in names]
+    return sorted((ROOT / "src").rglob("*.cpp"))
 
 
 def config(preset):
