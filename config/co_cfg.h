@@ -12,6 +12,11 @@
 #include CO_CFG_PRESET
 #endif
 
+/// Default of those settings that preset full sets to 1 with this name: 0 or 1.
+#ifndef CO_FULL
+#define CO_FULL 0
+#endif
+
 /// SDO servers (1200h, 1201h, …): 1…128. Each has a part of CO_NODE_SPEC.SdoBuf.
 #ifndef CO_SSDO_N
 #define CO_SSDO_N 1
@@ -56,7 +61,7 @@
 
 /// OD access interface in the style of CANopenNode (co_od.h): 0 or 1. Objects that do not use it cost nothing.
 #ifndef USE_OD
-#define USE_OD 0
+#define USE_OD CO_FULL
 #endif
 #if USE_OD && !USE_OBJ_EX
 #error "USE_OD needs USE_OBJ_EX"
@@ -174,12 +179,25 @@
 
 /// TIME consumer and producer (1012h), and a running clock: 0 or 1.
 #ifndef USE_TIME
-#define USE_TIME 0
+#define USE_TIME CO_FULL
+#endif
+
+/// High-resolution time stamp (1013h): a clock in µs that is synchronised by SYNC and time stamps: 0 or 1. Needs
+/// USE_TIME and USE_SYNC.
+#ifndef USE_TIME_HIGH_RES
+#if USE_TIME && USE_SYNC
+#define USE_TIME_HIGH_RES CO_FULL
+#else
+#define USE_TIME_HIGH_RES 0
+#endif
+#endif
+#if USE_TIME_HIGH_RES && !(USE_TIME && USE_SYNC)
+#error "USE_TIME_HIGH_RES needs USE_TIME and USE_SYNC"
 #endif
 
 /// Global fail-safe command (1300h, co_gfc.h): 0 or 1.
 #ifndef USE_GFC
-#define USE_GFC 0
+#define USE_GFC CO_FULL
 #endif
 
 /// Safety-relevant data objects, SRDOs (1301h…, co_srdo.h): 0…64.
@@ -202,7 +220,7 @@
 /// Recorder of objects with time and trigger, and its plot as CSV or numbers (co_recorder.h): 0 or 1. The application
 /// provides the memory of each recorder and its points.
 #ifndef USE_RECORDER
-#define USE_RECORDER 0
+#define USE_RECORDER CO_FULL
 #endif
 #if USE_RECORDER && !USE_OBJ_EX
 #error "USE_RECORDER needs USE_OBJ_EX"
@@ -253,12 +271,12 @@
 
 /// Commands of the NMT master (CONmtCommand()): 0 or 1.
 #ifndef USE_NMT_MASTER
-#define USE_NMT_MASTER 0
+#define USE_NMT_MASTER CO_FULL
 #endif
 
 /// Status LEDs of CiA 303-3: 0 or 1.
 #ifndef USE_LED
-#define USE_LED 0
+#define USE_LED CO_FULL
 #endif
 
 /// LSS slave: 0 or 1.
@@ -268,7 +286,7 @@
 
 /// LSS master (co_lss_master.h): 0 or 1.
 #ifndef USE_LSS_MASTER
-#define USE_LSS_MASTER 0
+#define USE_LSS_MASTER CO_FULL
 #endif
 
 /// Services of the LSS slave in Operational: 0 or 1. According to CiA 305, LSS is independent of the NMT state (1).
@@ -282,7 +300,7 @@
 /// transfers, NMT commands and LSS services of the network: 0 or 1. With 0 these members do not exist, and nothing is
 /// called.
 #ifndef USE_ACCESS_HOOK
-#define USE_ACCESS_HOOK 0
+#define USE_ACCESS_HOOK CO_FULL
 #endif
 #if USE_ACCESS_HOOK && !USE_CALLBACKS
 #error "USE_ACCESS_HOOK needs USE_CALLBACKS"
@@ -327,7 +345,7 @@
 /// Use of a node by several threads under the node lock, one of them for SYNC and PDOs only (CO_NODE_EXT.Enter,
 /// CONodeRealTime()): 0 or 1.
 #ifndef USE_REAL_TIME
-#define USE_REAL_TIME 0
+#define USE_REAL_TIME CO_FULL
 #endif
 #if USE_REAL_TIME && CO_STORE_BUFFER % 8 != 0
 #error "CO_STORE_BUFFER: a multiple of 8 with USE_REAL_TIME, or stored numbers may be partially written"

@@ -99,6 +99,10 @@ typedef struct CO_NODE_EXT_T {
 #endif
   const CO_CALLBACKS* Callbacks;  ///< functions that receive the node and User (co_callbacks.h), or null
   uint32_t SdoBufLen;             ///< bytes at CO_NODE_SPEC.SdoBuf (CO_SDO_BUFFER()); 0: unknown, not checked
+#if USE_TIME_HIGH_RES
+  /// Counter of microseconds that wraps at 2^32, for the high-resolution time stamp (co_time.h); null: the timer.
+  uint32_t (*Microseconds)(void* user);
+#endif
 } CO_NODE_EXT;
 
 /// \name Functions of a device, in the order of use

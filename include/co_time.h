@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_time.h
-/// TIME consumer and producer, and a running clock (USE_TIME). [CiA 301, 7.2.6] Configured by 1012h.
+/// TIME consumer and producer, and a running clock (USE_TIME). [CiA 301, 7.2.6] Configured by 1012h. A clock in µs that
+/// SYNC and time stamps synchronise (USE_TIME_HIGH_RES), 1013h.
 ///
 /// The clock is stopped at 0 until it is set by COTimeSet(), by a TIME message or through an object (CO_TTIME_CLOCK).
 /// It then counts the ticks of the timer driver and does not drift against them, at any timer frequency (1 Hz to 429
@@ -44,6 +45,26 @@ extern "C" {
 
 struct CO_NODE_T;
 
+#if USE_TIME_HIGH_RES
+/// High-resolution time stamp of a node. The application must not access its members.
+typedef struct CO_TIME_HIGH_RES_T {
+  CO_TMR_MEM Tmr;          ///< counts seconds; active while the local time is used
+  uint32_t Tick;           ///< clock of the timer driver at Seconds
+  uint32_t Seconds;        ///< local time in µs, whole seconds
+  uint32_t Base;           ///< local time at which the clock was Time
+  uint32_t Time;           ///< clock at Base in µs
+  int32_t Rate;            ///< rate of the clock against the local time, minus 1, in units of 2^-24
+  uint32_t MeasuredLocal;  ///< local time at the begin of a measurement of the rate
+  uint32_t MeasuredTime;   ///< time stamp then
+  uint32_t Sync;           ///< local time at the last SYNC
+  uint32_t Before;         ///< local time at the SYNC before
+  uint32_t Frame;          ///< frames received at the last SYNC
+  uint8_t Syncs;           ///< SYNCs since the last time stamp, at most 2
+  uint8_t Rejected;        ///< time stamps in succession that do not fit
+  uint8_t Flags;           ///< the clock is set, its rate is measured, time stamps fit
+} CO_TIME_HIGH_RES;
+#endif
+
 /// TIME of a node. The application must not access its members.
 typedef struct CO_TIME_T {
   CO_TMR_MEM Tmr;       ///< advances the clock; active while the clock is running
@@ -52,6 +73,9 @@ typedef struct CO_TIME_T {
   uint32_t Tick;        ///< clock of the timer driver at Past
   uint32_t Identifier;  ///< identifier of TIME messages to be sent; UINT32_MAX: none
   uint32_t Period;      ///< period of the producer in ticks; 0: none
+#if USE_TIME_HIGH_RES
+  CO_TIME_HIGH_RES HighRes;  ///< high-resolution time stamp
+#endif
 } CO_TIME;
 
 /// Sets the clock and starts it. Nothing is sent.
@@ -112,6 +136,50 @@ extern const CO_OBJ_TYPE COTTimeId CO_NEEDS(USE_TIME);  ///< functions of CO_TTI
 extern const CO_OBJ_TYPE COTTimeClock CO_NEEDS(USE_TIME);  ///< functions of CO_TTIME_CLOCK
 
 #define CO_TTIME_CLOCK ((const CO_OBJ_TYPE*)&COTTimeClock)  ///< type of the clock; Data: 0
+/// \}
+
+/// \name High-resolution time stamp
+/// 1013h [CiA 301, 7.5.2.16] is the value of a clock in µs at the last SYNC; it wraps at 2^32 (71.6 min). All nodes
+/// receive a SYNC at the same time, so the value of one node synchronises the clocks of the others, within the jitter
+/// with which they process a SYNC.
+/// - Producer: sets its clock once (COTimeHighResSet()) and maps 1013h into a TPDO. One that receives the SYNC is more
+///   exact than the producer of SYNC, whose SYNC may wait for other frames.
+/// - Consumer: maps 1013h into an RPDO of any transmission type. The first time stamp sets the clock; the following
+/// ones
+///   correct it: a quarter of each difference at once, and the rate, measured over more than a second, up to 977 ppm.
+///   The clock goes on without time stamps.
+///
+/// A time stamp counts only after a SYNC, and only the first one. One that differs by more than 250 µs, 977 ppm of the
+/// time since the last one, and two ticks of the timer is ignored: a SYNC was lost, or there is another producer. The
+/// fourth such time stamp in succession sets the clock. The local time of a node has the resolution of its timer, or is
+/// CO_NODE_EXT.Microseconds. The loop may be late by up to 2^32 ticks less one second.
+///
+/// Data of 1013h: a uint32_t; the stack writes it at each SYNC, 0 until the clock is set. The clock runs through NMT
+/// resets and ends with CONodeStop().
+///
+///     {CO_KEY(0x1013, 0, CO_OBJ____PRW), CO_TTIME_HIGH_RES, (CO_DATA)(&TimeStamp)}
+/// \{
+
+/// Sets the clock to \a us.
+/// \retval CO_ERR_NONE        the clock is set
+/// \retval CO_ERR_BAD_ARG     \a node is null
+/// \retval CO_ERR_NMT_MODE    the node is in CO_INVALID
+/// \retval CO_ERR_TMR_CREATE  the timer has no frequency
+CO_ERR COTimeHighResSet(struct CO_NODE_T* node, uint32_t us) CO_NEEDS(USE_TIME_HIGH_RES);
+
+/// Returns the clock in \a us, in µs. Corrections move it backwards by up to a quarter of a difference.
+/// \retval CO_ERR_NONE         the clock is set
+/// \retval CO_ERR_BAD_ARG      an argument is null
+/// \retval CO_ERR_OBJ_NO_DATA  the clock was not set yet; \a us is 0
+CO_ERR COTimeHighResGet(struct CO_NODE_T* node, uint32_t* us) CO_NEEDS(USE_TIME_HIGH_RES);
+
+/// Returns 1 if the last time stamp has fitted the clock, 0 if there was none or it did not fit, -1 if \a node is null.
+/// Whether time stamps arrive at all is observed by the deadline of the RPDO (sub-index 5).
+int16_t COTimeHighResIsSynchronised(const struct CO_NODE_T* node) CO_NEEDS(USE_TIME_HIGH_RES);
+
+extern const CO_OBJ_TYPE COTTimeHighRes CO_NEEDS(USE_TIME_HIGH_RES);  ///< functions of CO_TTIME_HIGH_RES
+
+#define CO_TTIME_HIGH_RES ((const CO_OBJ_TYPE*)&COTTimeHighRes)  ///< type of 1013h
 /// \}
 
 #ifdef __cplusplus

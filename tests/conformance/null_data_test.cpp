@@ -35,42 +35,45 @@ const Null basic[] = {
 
 // Types that are allowed only at their index of the communication profile.
 const Null placed[] = {
-    {0x1014, 0, CO_TEMCY_ID},     {0x1017, 0, CO_THB_PROD},      {0x1029, 1, CO_TERROR_BEHAVIOUR},
+    {0x1014, 0, CO_TEMCY_ID},       {0x1017, 0, CO_THB_PROD},      {0x1029, 1, CO_TERROR_BEHAVIOUR},
     {0x1F80, 0, CO_TNMT_STARTUP},
 #if CO_SSDO_N > 1
-    {0x1201, 1, CO_TSDO_ID},      {0x1201, 2, CO_TSDO_ID},
+    {0x1201, 1, CO_TSDO_ID},        {0x1201, 2, CO_TSDO_ID},
 #endif
 #if CO_HBCONS_N > 0
-    {0x1016, 0, CO_THB_CONS},     {0x1016, 1, CO_THB_CONS},
+    {0x1016, 0, CO_THB_CONS},       {0x1016, 1, CO_THB_CONS},
 #endif
 #if USE_SYNC
-    {0x1005, 0, CO_TSYNC_ID},     {0x1006, 0, CO_TSYNC_CYCLE},   {0x1007, 0, CO_TSYNC_CYCLE},
+    {0x1005, 0, CO_TSYNC_ID},       {0x1006, 0, CO_TSYNC_CYCLE},   {0x1007, 0, CO_TSYNC_CYCLE},
     {0x1019, 0, CO_TSYNC_COUNT},
 #endif
 #if USE_PARA
-    {0x1010, 1, CO_TPARA_STORE},  {0x1011, 1, CO_TPARA_RESTORE}, {0x1020, 1, CO_TVERIFY_CONFIG},
+    {0x1010, 1, CO_TPARA_STORE},    {0x1011, 1, CO_TPARA_RESTORE}, {0x1020, 1, CO_TVERIFY_CONFIG},
 #endif
 #if USE_TIME
     {0x1012, 0, CO_TTIME_ID},
+#if USE_TIME_HIGH_RES
+    {0x1013, 0, CO_TTIME_HIGH_RES},
+#endif
 #endif
 #if CO_EMCY_CONS_N > 0
     {0x1028, 1, CO_TEMCY_CONS},
 #endif
 #if CO_RPDO_N > 0
-    {0x1400, 1, CO_TPDO_ID},      {0x1400, 2, CO_TPDO_TYPE},     {0x1400, 5, CO_TPDO_EVENT},
-    {0x1600, 0, CO_TPDO_NUM},     {0x1600, 1, CO_TPDO_MAP},
+    {0x1400, 1, CO_TPDO_ID},        {0x1400, 2, CO_TPDO_TYPE},     {0x1400, 5, CO_TPDO_EVENT},
+    {0x1600, 0, CO_TPDO_NUM},       {0x1600, 1, CO_TPDO_MAP},
 #endif
 #if CO_TPDO_N > 0
-    {0x1800, 1, CO_TPDO_ID},      {0x1800, 2, CO_TPDO_TYPE},     {0x1800, 3, CO_TPDO_INHIBIT},
-    {0x1800, 5, CO_TPDO_EVENT},   {0x1800, 6, CO_TPDO_START},    {0x1A00, 0, CO_TPDO_NUM},
+    {0x1800, 1, CO_TPDO_ID},        {0x1800, 2, CO_TPDO_TYPE},     {0x1800, 3, CO_TPDO_INHIBIT},
+    {0x1800, 5, CO_TPDO_EVENT},     {0x1800, 6, CO_TPDO_START},    {0x1A00, 0, CO_TPDO_NUM},
     {0x1A00, 1, CO_TPDO_MAP},
 #endif
 #if USE_RECORDER
-    {0x2301, 1, CO_TREC_CONFIG},  {0x2301, 10, CO_TREC_CONFIG},  {0x2400, 0, CO_TREC_ENABLE},
-    {0x2401, 1, CO_TREC_DATA},    {0x2401, 6, CO_TREC_DATA},
+    {0x2301, 1, CO_TREC_CONFIG},    {0x2301, 10, CO_TREC_CONFIG},  {0x2400, 0, CO_TREC_ENABLE},
+    {0x2401, 1, CO_TREC_DATA},      {0x2401, 6, CO_TREC_DATA},
 #endif
 #if CO_MPDO_N > 0
-    {0x1FA0, 1, CO_TPDO_SCAN},    {0x1FD0, 1, CO_TPDO_DISPATCH},
+    {0x1FA0, 1, CO_TPDO_SCAN},      {0x1FD0, 1, CO_TPDO_DISPATCH},
 #endif
 };
 

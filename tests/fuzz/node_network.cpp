@@ -60,7 +60,7 @@ constexpr Entry pdo_settings[] = {{0, 1, 4}, {0, 2, 1}, {0, 3, 2}, {0, 5, 2}, {0
 constexpr std::uint32_t mappings[] = {
     0x20000008, 0x20000110, 0x20000218, 0x20000320, 0x20000428, 0x20000538, 0x20000640, 0x20000718,
     0x20000820, 0x20000940, 0x20000A30, 0x20000B08, 0x20000D20, 0x21000040, 0x22000020, 0x22000308,
-    0x22000640, 0x23000030, 0x00010001, 0x00050008, 0x00060010, 0x00070020, 0x20000C08, 0x20000310,
+    0x22000640, 0x23000030, 0x00010001, 0x00050008, 0x00060010, 0x00070020, 0x20000C08, 0x10130020,
 };
 
 }  // namespace
@@ -79,6 +79,7 @@ void add_network(std::vector<CO_OBJ>& table, NetworkObjects& o) {
                                 row(0x100C, 0, CO_OBJ_____RW, CO_TUNSIGNED16, &o.guard_time),
                                 row(0x100D, 0, CO_OBJ_____RW, CO_TUNSIGNED8, &o.life_time_factor),
                                 row(0x1012, 0, CO_OBJ_____RW, CO_TTIME_ID, &o.time_id),
+                                row(0x1013, 0, CO_OBJ____PRW, CO_TTIME_HIGH_RES, &o.time_stamp),
                                 row(0x1014, 0, CO_OBJ__N__RW, CO_TEMCY_ID, &o.emcy_id),
                                 row(0x1015, 0, CO_OBJ_____RW, CO_TUNSIGNED16, &o.emcy_inhibit),
                                 row(0x1016, 1, CO_OBJ_____RW, CO_THB_CONS, &o.heartbeat_consumers[0]),
@@ -337,6 +338,10 @@ void Network::set_time() {
   CO_TIME_OF_DAY now{};
   if (COTimeSet(&node_, &time) == CO_ERR_NONE) {
     require(COTimeGet(&node_, &now) == CO_ERR_NONE, "a clock that was set tells the time");
+  }
+  std::uint32_t us = 0;
+  if (input_.flag() && COTimeHighResSet(&node_, time.Ms) == CO_ERR_NONE) {
+    require(COTimeHighResGet(&node_, &us) == CO_ERR_NONE, "a clock that was set returns its value");
   }
   require(COTimeGet(&node_, &now) != CO_ERR_NONE || now.Ms < 24U * 60 * 60 * 1000, "a day has 24 hours");
 }

@@ -36,6 +36,7 @@ struct NetworkObjects {
   std::uint16_t guard_time = 0;
   std::uint8_t life_time_factor = 0;
   std::uint32_t time_id = CO_TIME_COBID_CONSUME | 0x100;
+  std::uint32_t time_stamp = 0;
   std::uint32_t emcy_id = 0x80;
   std::uint16_t emcy_inhibit = 0;
   std::uint32_t emcy_consumers[2] = {0x81, 0x89};

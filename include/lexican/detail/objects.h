@@ -26,6 +26,7 @@
   X(restore_number,        CO_TPARA_RESTORE,    COTParaStore,      0x1011, 0x1011, 0, 0,   1, D,   unsigned_integer, value,    USE_PARA) \
   X(restore,               CO_TPARA_RESTORE,    COTParaStore,      0x1011, 0x1011, 1, 127, 4, _,   unsigned_integer, group,    USE_PARA) \
   X(time_cob_id,           CO_TTIME_ID,         COTTimeId,         0x1012, 0x1012, 0, 0,   4, DN,  unsigned_integer, value,    USE_TIME) \
+  X(time_high_res,         CO_TTIME_HIGH_RES,   COTTimeHighRes,    0x1013, 0x1013, 0, 0,   4, _,   unsigned_integer, fixed,    USE_TIME_HIGH_RES) \
   X(emcy_cob_id,           CO_TEMCY_ID,         COTEmcyId,         0x1014, 0x1014, 0, 0,   4, DN,  unsigned_integer, value,    USE_EMCY) \
   X(heartbeat_consumers,   CO_THB_CONS,         COTNmtHbCons,      0x1016, 0x1016, 0, 0,   1, D,   unsigned_integer, value,    CO_HBCONS_N) \
   X(heartbeat_consumer,    CO_THB_CONS,         COTNmtHbCons,      0x1016, 0x1016, 1, 127, 4, _,   unsigned_integer, consumer, CO_HBCONS_N) \

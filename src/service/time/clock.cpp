@@ -22,29 +22,34 @@ CO_TIME_OF_DAY later(const CO_TIME_OF_DAY& time, uint32_t days, uint32_t ms) {
 // Advances the clock by the whole seconds that have elapsed. Returns the remaining ticks.
 uint32_t advance_clock(CO_NODE& node) {
   constexpr uint32_t seconds_per_day = wire::ms_per_day / 1000;
-  CO_TIME& time = node.Time;
-  const uint32_t passed = tmr::now(node) - time.Tick;
-  const uint32_t seconds = passed / node.Tmr.Freq;
-  const uint32_t ticks = seconds * node.Tmr.Freq;
-  time.Past = later(time.Past, seconds / seconds_per_day, seconds % seconds_per_day * 1000);
-  time.Tick += ticks;
-  return passed - ticks;
+  uint32_t seconds = 0;
+  const uint32_t ticks = take_seconds(node, node.Time.Tick, seconds);
+  node.Time.Past = later(node.Time.Past, seconds / seconds_per_day, seconds % seconds_per_day * 1000);
+  return ticks;
 }
 
 void advance_clock(void* node_pointer) { advance_clock(*static_cast<CO_NODE*>(node_pointer)); }
 
-// Converts ticks of less than a second to ms, digit by digit, because 1000 times the ticks may exceed 32 bits.
-uint32_t ms_of(uint32_t ticks, uint32_t freq) {
-  uint32_t ms = 0;
-  for (uint8_t digit = 0; digit < 3; ++digit) {
-    ticks *= 10;
-    ms = ms * 10 + ticks / freq;
-    ticks %= freq;
-  }
-  return ms;
+}  // namespace
+
+uint32_t take_seconds(CO_NODE& node, uint32_t& tick, uint32_t& seconds) {
+  const uint32_t passed = tmr::now(node) - tick;
+  seconds = passed / node.Tmr.Freq;
+  const uint32_t ticks = seconds * node.Tmr.Freq;
+  tick += ticks;
+  return passed - ticks;
 }
 
-}  // namespace
+// Digit by digit, because the ticks times 10^digits may exceed 32 bits.
+uint32_t fraction_of_second(uint32_t ticks, uint32_t freq, unsigned digits) {
+  uint32_t fraction = 0;
+  for (; digits != 0; --digits) {
+    ticks *= 10;
+    fraction = fraction * 10 + ticks / freq;
+    ticks %= freq;
+  }
+  return fraction;
+}
 
 bool is_set(const CO_NODE& node) { return tmr::is_running(node.Time.Tmr); }
 
@@ -53,7 +58,7 @@ CO_TIME_OF_DAY read_clock(CO_NODE& node) {
     return {0, 0};
   }
   const uint32_t ticks = advance_clock(node);
-  return later(node.Time.Past, 0, ms_of(ticks, node.Tmr.Freq));
+  return later(node.Time.Past, 0, fraction_of_second(ticks, node.Tmr.Freq, 3));
 }
 
 CO_ERR set_clock(CO_NODE& node, const CO_TIME_OF_DAY& time) {

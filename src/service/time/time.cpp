@@ -65,6 +65,7 @@ void init(CO_NODE& node) {
 void on_mode(CO_NODE& node) {
   if (!is_allowed(node)) {
     flush(node);
+    stop_high_res(node);
   }
   run_producer(node);
   if (node.Nmt.Mode == CO_INVALID) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TIME consumer and producer, and a running clock. [301:7.2.6]
+// TIME consumer and producer, a running clock, and the high-resolution time stamp. [301:7.2.6, 7.5.2.16]
 #pragma once
 
 #include "base/part.hpp"
@@ -27,6 +27,21 @@ void flush(CO_NODE& node);
 
 void stop_clock(CO_NODE& node);
 
+// Advances tick, a clock value of the timer, by the whole seconds since then, and returns the remaining ticks. seconds:
+// their number
+uint32_t take_seconds(CO_NODE& node, uint32_t& tick, uint32_t& seconds);
+
+// Converts ticks of less than a second to units of 10^-digits seconds. freq: ticks per second, up to 429 MHz
+[[nodiscard]] uint32_t fraction_of_second(uint32_t ticks, uint32_t freq, unsigned digits);
+
+#if USE_TIME_HIGH_RES
+// The high-resolution time stamp. on_sync: a SYNC was received or is sent. stop_high_res: SYNC is no longer allowed.
+void on_sync(CO_NODE& node, uint8_t counter);
+void stop_high_res(CO_NODE& node);
+inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).bus_off(flush).sync(on_sync);
+#else
+inline void stop_high_res(CO_NODE&) {}
 inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).bus_off(flush);
+#endif
 
 }  // namespace co::time
