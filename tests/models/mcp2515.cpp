@@ -74,7 +74,6 @@ constexpr bool is_read_rx_buffer(std::uint8_t byte) { return (byte & 0xF9) == 0x
 constexpr bool is_load_tx_buffer(std::uint8_t byte) { return (byte & 0xF8) == 0x40 && (byte & 7) < 6; }
 constexpr bool is_rts(std::uint8_t byte) { return (byte & 0xF8) == 0x80; }
 
-constexpr std::uint8_t not_driven = 0xA5;
 constexpr std::uint8_t undefined = 0xA5;  // content of filters, masks and buffers after power-up
 constexpr unsigned buffers = 3;
 
@@ -107,7 +106,7 @@ std::uint32_t full_id(const std::uint8_t* words) {
 Mcp2515::Mcp2515(CanWire& wire) : Mcp2515(wire, Options{}) {}
 
 Mcp2515::Mcp2515(CanWire& wire, const Options& options)
-    : wire_(wire), options_(options), node_(wire, *this, options.name) {
+    : SpiModel(wire), options_(options), node_(wire, *this, options.name) {
   registers_.fill(undefined);
   reset();
 }
@@ -129,66 +128,15 @@ void Mcp2515::reset() {
   is_aborting_ = {};
 }
 
-std::string Mcp2515::fault_text() const {
-  std::string text;
-  for (const std::string& one : faults_) {
-    text += one + "\n";
-  }
-  return text;
-}
-
-std::size_t Mcp2515::bytes() const {
-  std::size_t number = 0;
-  for (const SpiTransaction& one : transactions_) {
-    number += one.sent.size();
-  }
-  return number;
-}
-
 bool Mcp2515::interrupt() const { return (at(canintf) & at(caninte)) != 0; }
 
 // ---- Instructions
 
-void Mcp2515::select() {
-  if (is_selected_) {
-    fault("CS is set low within a transaction");
-  }
-  is_selected_ = true;
-  transaction_ = {};
-}
-
-void Mcp2515::deselect() {
-  if (!is_selected_) {
-    fault("CS is set high without a transaction");
-    return;
-  }
-  is_selected_ = false;
-  check_end();
-  transactions_.push_back(transaction_);
-}
-
-std::uint8_t Mcp2515::transfer(std::uint8_t out) {
-  if (on_transfer) {
-    on_transfer();
-  }
-  wire_.count_access();
-  if (!is_selected_) {
-    fault("a byte is transferred while CS is high");
-    return not_driven;
-  }
-  const std::uint8_t in = shift(out);
-  transaction_.sent.push_back(out);
-  transaction_.received.push_back(in);
-  return in;
-}
-
-// Performs a byte of the instruction; sent has the bytes before it.
 std::uint8_t Mcp2515::shift(std::uint8_t out) {
-  const std::vector<std::uint8_t>& sent = transaction_.sent;
-  if (sent.empty()) {
+  if (sent().empty()) {
     return first_byte(out);
   }
-  const std::uint8_t instruction = sent[0];
+  const std::uint8_t instruction = sent()[0];
   if (instruction == instruction_read_status) {
     return read_status();
   }
@@ -199,7 +147,7 @@ std::uint8_t Mcp2515::shift(std::uint8_t out) {
     return modify_bits(out);
   }
   const bool has_address = instruction == instruction_read || instruction == instruction_write;
-  if (has_address && sent.size() == 1) {
+  if (has_address && sent().size() == 1) {
     pointer_ = out;
     if (pointer_ >= registers_.size()) {
       fault("register address above 7Fh");
@@ -243,7 +191,7 @@ std::uint8_t Mcp2515::first_byte(std::uint8_t out) {
 
 // [12.10]
 std::uint8_t Mcp2515::modify_bits(std::uint8_t out) {
-  switch (transaction_.sent.size()) {
+  switch (sent().size()) {
     case 1: pointer_ = out & 0x7F; break;
     case 2: mask_ = out; break;
     case 3:
@@ -258,19 +206,13 @@ std::uint8_t Mcp2515::modify_bits(std::uint8_t out) {
   return not_driven;
 }
 
-// Ends an instruction with the rising edge of CS.
-void Mcp2515::check_end() {
-  const std::vector<std::uint8_t>& sent = transaction_.sent;
-  if (sent.empty()) {
-    fault("a transaction without an instruction");
-    return;
-  }
-  const std::uint8_t instruction = sent[0];
+void Mcp2515::end_instruction() {
+  const std::uint8_t instruction = sent()[0];
   const bool has_address = instruction == instruction_read || instruction == instruction_write;
   const bool has_data = is_read_rx_buffer(instruction) || is_load_tx_buffer(instruction) ||
                         instruction == instruction_read_status || instruction == instruction_rx_status;
   const std::size_t least = instruction == instruction_bit_modify ? 4 : has_address ? 3 : has_data ? 2 : 1;
-  if (sent.size() < least) {
+  if (sent().size() < least) {
     fault("an instruction is not complete");
   }
   if (is_read_rx_buffer(instruction)) {  // the flag is cleared after CS is raised [12.4]

@@ -6,22 +6,14 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "can_wire.hpp"
+#include "spi_model.hpp"
 
 namespace test {
 
-/// Bytes between two edges of the chip select line.
-struct SpiTransaction {
-  std::vector<std::uint8_t> sent;      ///< by the host
-  std::vector<std::uint8_t> received;  ///< by the host; a byte that the controller does not drive is A5h
-};
-
-class Mcp2515 : private CanClient {
+class Mcp2515 : public SpiModel, private CanClient {
  public:
   struct Options {
     std::uint32_t oscillator = 0;  ///< in Hz; 0: the bit rate is not checked
@@ -33,28 +25,7 @@ class Mcp2515 : private CanClient {
   Mcp2515(CanWire& wire, const Options& options);
   explicit Mcp2515(CanWire& wire);
 
-  // SPI, modes 0,0 and 1,1
-  void select();                            ///< CS low
-  std::uint8_t transfer(std::uint8_t out);  ///< eight clocks
-  void deselect();                          ///< CS high
-  bool is_selected() const { return is_selected_; }
-
-  /// Returns true while the INT pin is low.
-  bool interrupt() const;
-
-  /// Complete transactions since the beginning or clear_transactions(), the last one at the end.
-  const std::vector<SpiTransaction>& transactions() const { return transactions_; }
-  std::size_t bytes() const;  ///< of these transactions
-  void clear_transactions() { transactions_.clear(); }
-
-  /// Accesses that the data sheet forbids, and uses of functions that are not modelled, as texts of one line.
-  const std::vector<std::string>& faults() const { return faults_; }
-  std::string fault_text() const;
-  void clear_faults() { faults_.clear(); }
-
-  /// Called before each byte, e.g. to run the interrupt function of the driver within a transaction.
-  std::function<void()> on_transfer;
-
+  bool interrupt() const override;
   CanNode& node() { return node_; }
   std::uint32_t bit_rate() const;  ///< of CNF1…3 in bit/s
   unsigned sample_point() const;   ///< in permille of the bit time
@@ -81,13 +52,11 @@ class Mcp2515 : private CanClient {
   void on_counters() override;
   void on_bit(bool level) override;
 
-  void fault(const std::string& reason) { faults_.push_back(reason); }
-
   // Instructions
-  std::uint8_t shift(std::uint8_t out);
+  std::uint8_t shift(std::uint8_t out) override;
   std::uint8_t first_byte(std::uint8_t out);
   std::uint8_t modify_bits(std::uint8_t out);
-  void check_end();
+  void end_instruction() override;
   std::uint8_t read_status() const;
   std::uint8_t rx_status() const;
   void reset();
@@ -124,7 +93,6 @@ class Mcp2515 : private CanClient {
   void overflow(unsigned buffer);
   void set_error_flags(std::uint8_t flags);
 
-  CanWire& wire_;
   Options options_;
   CanNode node_;
   Mode mode_ = Mode::configuration;
@@ -135,12 +103,8 @@ class Mcp2515 : private CanClient {
   unsigned rx_filter_ = 0;             // of RX STATUS, for the message in RXB0
   unsigned rx_filter_1_ = 0;           // for the message in RXB1
 
-  bool is_selected_ = false;
-  SpiTransaction transaction_;
   std::uint8_t pointer_ = 0;
   std::uint8_t mask_ = 0;
-  std::vector<SpiTransaction> transactions_;
-  std::vector<std::string> faults_;
 };
 
 }  // namespace test
