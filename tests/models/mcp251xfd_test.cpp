@@ -382,6 +382,7 @@ TEST_CASE("mcp251xfd: the RAM is assigned to events, transmit queue and FIFO 1 t
   station.write(0x000, 0x04180760);       // STEF
   station.write(0x040, 0x02000020);       // 3 events of 12 bytes
   station.write(fifocon(1), 0x23000029);  // 4 messages of 12 data bytes with a time stamp
+  station.write(fifocon(2), 0x036000A0);  // a transmit FIFO has no time stamp
   station.start();
   CHECK(station.read(0x048) == 0);
   CHECK(station.read(fifoua(0)) == 36);
@@ -622,6 +623,9 @@ TEST_CASE("mcp251xfd: transmit interrupts follow the FIFO; C1VEC [10]") {
   CHECK(station.can.interrupt());
   CHECK(station.read(0x024) == 5);
   CHECK(station.read(0x018) == 0x40020002);
+  station.write_byte(0x01E, 0);
+  CHECK(station.read(0x018) == 0x40020040);
+  station.write_byte(0x01E, 1);
   station.write_byte(0x050, 0);
   station.queue(2, standard_frame(0x101));
   CHECK(station.read(0x024) == 4);
@@ -725,6 +729,20 @@ TEST_CASE("mcp251xfd: filters with masks, EXIDE and MIDE; the filter is disabled
   station.write(0x1F4, 0x7FF);  // without MIDE
   station.write_byte(0x1D0, 0x81);
   CHECK(station.accepts(extended_frame(0x123 << 18)));
+  station.write_byte(0x1D0, 0x01);
+  station.write(0x1F0, 0x123 | 5 << 11);  // EID is not compared with a standard frame
+  station.write(0x1F4, 0x1FFFFFFF);
+  station.write_byte(0x1D0, 0x81);
+  CHECK(station.accepts(standard_frame(0x123)));
+  CHECK(station.accepts(extended_frame(0x123 << 18 | 5)));
+  station.write_byte(0x1D0, 0x01);
+  station.write_byte(0x1D0, 0x82);  // transmit FIFO: the message is discarded
+  station.write(0x1F8, 0);
+  station.write(0x1FC, 0);
+  station.write_byte(0x1D1, 0x81);
+  CHECK_FALSE(station.accepts(standard_frame(0x123)));
+  CHECK(station.accepts(standard_frame(0x124)));
+  CHECK((station.read(fifosta(2)) & 4) == 4);
 }
 
 TEST_CASE("mcp251xfd: a full FIFO has an overflow, or the next filter stores the message [6]") {
