@@ -38,7 +38,7 @@ all_cases() {
   host_codict && LEXICAN_CODICT=$codict run_doctest "codict memory" "$of/tests/lexican_codict_memory_tests"
   codict_pages
   for target in "${tool_fuzz_targets[@]}"; do
-    check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
+    check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/inputs/$target.txt"
   done
   check "installation with the manual page and completion" install_codict
   check "docs/pictures shows the output of codict check" same_screen "$of/codict"

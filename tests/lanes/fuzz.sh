@@ -16,7 +16,7 @@ lane() {
 fuzz() {  # TARGET SECONDS
   local work=$build/fuzz-$1
   mkdir -p "$work/corpus"
-  cp "$root/tests/fuzz/corpus/$1"/* "$work/corpus"
+  "$root/tests/fuzz/inputs.py" unpack "$1" "$work/corpus"
   "$build/fuzz/tests/fuzz/${1}_fuzz" -max_total_time="$2" -max_len=1024 -timeout=20 -print_final_stats=1 \
     -artifact_prefix="$work/" "$work/corpus" >"$work/log" 2>&1
   local status=$?

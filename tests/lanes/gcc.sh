@@ -25,6 +25,6 @@ lane() {
   built_from "$tree" tests/{cookbook,compat} -name '*.c*' -not -name other_configuration.c  # compiled by a case of ctest
   [ -n "$full" ] || return 0
   for target in "${stack_fuzz_targets[@]}"; do
-    check "$target" "$build/gcc/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
+    check "$target" "$build/gcc/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/inputs/$target.txt"
   done
 }
