@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each rule has a page, catalogue/pages/RULE.md, whose examples do what the page says.
+// Each rule has a section in docs/rules.md, whose examples do what it says.
 //
 // An example contains only the essential lines; the test inserts it into a device (fixtures/rules). Sections of an EDS
 // replace those of the same name, and the lists of objects are generated. Elements of an XML description are inserted

@@ -25,8 +25,8 @@ Examples show only the relevant part of a description. The tests add it to a dev
 `whole` are complete files, and so are plans of networks, whose descriptions are in
 `tools/codict/tests/fixtures/network`. The wrong example breaks its rule, the right one does not.
 
-This file is generated: `codict explain --all >tools/codict/docs/rules.md`. The sections are written in
-`tools/codict/src/catalogue/pages`, the faults next to the checks (`rules.cpp`).
+Severities, faults and tables are written by `codict explain --all`, from the definitions next to the checks
+(`rules.cpp`); the rest of this page is their only source.
 )";
 
 struct Chapter {
@@ -53,6 +53,18 @@ const Chapter& chapter_of(const Rule& rule) {
   return own != chapters.end() ? *own : chapters[1];
 }
 
+// Returns the text behind the title of a section, without severity and fault.
+std::string_view text_of(std::string_view section) {
+  section.remove_prefix(std::min(section.size(), section.find('\n') + 2));
+  for (const std::string_view severity : {"error: ", "warning: ", "note: "}) {
+    if (begins_with(section, severity)) {
+      section.remove_prefix(std::min(section.size(), section.find('\n') + 2));
+      break;
+    }
+  }
+  return section;
+}
+
 std::string_view page_of(const Rule& rule) {
   const auto place =
       std::find_if(all_pages().begin(), all_pages().end(), [&rule](const Page& page) { return page.id == rule.id; });
@@ -70,6 +82,23 @@ std::string table_of(const Chapter& chapter) {
 }
 
 }  // namespace
+
+const std::vector<Page>& all_pages() {
+  static const std::vector<Page> all = [] {
+    constexpr std::string_view begin = "\n### ";
+    std::vector<Page> pages;
+    std::size_t at = rules_page.find(begin);
+    while (at != std::string_view::npos) {
+      const std::size_t next = rules_page.find(begin, at + 1);
+      const std::size_t end = std::min(rules_page.find("\n## ", at), next);
+      const std::string_view section = rules_page.substr(at + begin.size(), end - at - begin.size());
+      pages.push_back({section.substr(0, section.find('\n')), text_of(section)});
+      at = next;
+    }
+    return pages;
+  }();
+  return all;
+}
 
 std::string section_of(const Rule& rule) {
   return fmt::format("### {}\n\n{}: {}\n\n{}", rule.id, name_of(rule.severity), rule.about, page_of(rule));

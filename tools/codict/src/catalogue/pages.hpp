@@ -11,19 +11,22 @@
 
 namespace lexican::codict::catalogue {
 
-/// A file of catalogue/pages, compiled into the program.
+/// docs/rules.md, defined in rule_pages.cpp, which the build generates.
+extern const std::string_view rules_page;
+
+/// A section of docs/rules.md.
 struct Page {
   std::string_view id;    ///< id of the rule
-  std::string_view text;  ///< Markdown without title and severity
+  std::string_view text;  ///< Markdown without title, severity and fault
 };
 
-/// Returns the pages of all rules, defined in rule_pages.cpp, which the build generates.
+/// Returns the sections of all rules.
 const std::vector<Page>& all_pages();
 
 /// Returns the section of the reference about one rule: title, severity, fault, and its page.
 std::string section_of(const Rule& rule);
 
-/// Returns tools/codict/docs/rules.md, which `codict explain --all` prints.
+/// Returns tools/codict/docs/rules.md with the rules' severities and faults, which `codict explain --all` prints.
 std::string reference();
 
 /// Returns the path of the reference in the repository, with the rule's anchor.
