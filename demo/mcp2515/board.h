@@ -15,7 +15,7 @@ extern "C" {
 /// edge of INT. Called first in main().
 void BoardStart(void);
 
-/// \name Access to the controller, see CO_MCP2515_SPI
+/// \name Access to the controller, see CO_CAN_SPI
 /// \{
 void BoardSelect(void* ctx, bool selected);
 void BoardTransfer(void* ctx, uint8_t* bytes, uint8_t num);

@@ -29,7 +29,7 @@ static CO_OBJ Dictionary[] = {
 
 // The controller
 static const CO_CAN_MCP2515_RATE Rates[] = {CO_CAN_MCP2515_RATE_OF(16000000, 500000, 16)};
-static const CO_MCP2515_SPI Spi = {BoardSelect, BoardTransfer, BoardHasInterrupt};
+static const CO_CAN_SPI Spi = {BoardSelect, BoardTransfer, BoardHasInterrupt};
 static CO_IF_FRM Frames[32];
 static CO_CAN_MCP2515 Can = {.Spi = &Spi, .Rates = Rates, .RateNum = 1, .Frames = Frames, .FrameNum = 32};
 

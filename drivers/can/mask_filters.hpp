@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file mask_filters.hpp
-/// Merges acceptance filters of a word and a mask, for controllers that have fewer filters than the node has
+/// Acceptance filters of a word and a mask, which are merged, for controllers that have fewer filters than the node has
 /// identifiers.
 #ifndef CO_DRIVERS_MASK_FILTERS_HPP_
 #define CO_DRIVERS_MASK_FILTERS_HPP_
 
 #include <cstdint>
+
+#include "transmit.hpp"
 
 namespace co::mask_filters {
 /// \cond internal
@@ -78,5 +80,60 @@ void merge_two(Filters<Word, most>& all, Added added) {
 
 /// \endcond
 }  // namespace co::mask_filters
+
+/// Filters for identifiers as words.
+namespace co::identifiers {
+/// \cond internal
+
+using mask_filters::Filters;
+
+/// Bit of a word: 29-bit identifier. It is always compared. Bits 0…28 are the identifier; that of 11 bits is in bits
+/// 18…28.
+inline constexpr std::uint32_t extended_bit = std::uint32_t{1} << 29;
+inline constexpr std::uint32_t standard_mask = extended_bit | (std::uint32_t{0x7FF} << 18);
+inline constexpr std::uint32_t all_bits = extended_bit | 0x1FFFFFFF;
+
+using Item = mask_filters::Filter<std::uint32_t>;
+
+/// Returns the word of an identifier, which is coded like in CO_IF_FRM.
+inline std::uint32_t word_of(std::uint32_t identifier) {
+  const std::uint32_t id = identifier & CO_IF_FRM_ID;
+  return transmit::is_extended(identifier) ? id | extended_bit : id << 18;
+}
+
+/// Returns the number of 11-bit identifiers, or of groups of 2^15 29-bit identifiers, that pass a filter.
+inline std::int32_t width(const Item& item) {
+  constexpr unsigned bits_of_group = 15;
+  const bool is_extended = (item.word & extended_bit) != 0;
+  const unsigned open = mask_filters::count_bits((is_extended ? all_bits : standard_mask) & ~item.mask);
+  const unsigned ignored = is_extended ? bits_of_group : 0;
+  return std::int32_t{1} << (open > ignored ? open - ignored : 0);
+}
+
+/// Returns the width that merging adds; INT32_MAX for identifiers of different length.
+inline std::int32_t added_by_merging(const Item& a, const Item& b) {
+  const bool is_same_kind = ((a.word ^ b.word) & extended_bit) == 0;
+  return is_same_kind ? width(mask_filters::both(a, b)) - width(a) - width(b) : INT32_MAX;
+}
+
+/// Returns at most \a most filters that pass identifiers, which are coded like in CO_IF_CAN_DRV_EX.Filter, ascending.
+template <unsigned most>
+Filters<std::uint32_t, most> items_of(const std::uint32_t* ids, unsigned num) {
+  Filters<std::uint32_t, most> items = {};
+  for (unsigned n = 0; n < num; ++n) {
+    const Item item = {word_of(ids[n]), transmit::is_extended(ids[n]) ? all_bits : standard_mask};
+    if (mask_filters::passes(items, item)) {
+      continue;
+    }
+    items.filter[items.number++] = item;
+    if (items.number > most) {
+      mask_filters::merge_two(items, added_by_merging);
+    }
+  }
+  return items;
+}
+
+/// \endcond
+}  // namespace co::identifiers
 
 #endif

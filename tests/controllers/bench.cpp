@@ -304,8 +304,8 @@ void transfer_mcp2515(void* ctx, std::uint8_t* bytes, std::uint8_t number) {
   }
 }
 bool mcp2515_has_interrupt(void* ctx) { return static_cast<Mcp2515*>(ctx)->interrupt(); }
-constexpr CO_MCP2515_SPI mcp2515_spi = {select_mcp2515, transfer_mcp2515, mcp2515_has_interrupt};
-constexpr CO_MCP2515_SPI mcp2515_spi_without_pin = {select_mcp2515, transfer_mcp2515, nullptr};
+constexpr CO_CAN_SPI mcp2515_spi = {select_mcp2515, transfer_mcp2515, mcp2515_has_interrupt};
+constexpr CO_CAN_SPI mcp2515_spi_without_pin = {select_mcp2515, transfer_mcp2515, nullptr};
 
 class Mcp2515Controller : public Controller {
  public:

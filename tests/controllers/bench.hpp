@@ -66,7 +66,7 @@ struct ControllerOptions {
   std::uint8_t fifo = 4;              ///< places in the receive FIFO of Kind::mcan
   std::uint32_t clock = 48'000'000;   ///< Hz
   bool starts = true;                 ///< Init, Enable; false: neither
-  CO_MCP2515_BUS* spi_bus = nullptr;  ///< of Kind::mcp2515
+  CO_CAN_SPI_BUS* spi_bus = nullptr;  ///< of Kind::mcp2515
   bool has_interrupt_pin = true;      ///< Kind::mcp2515: the driver can read the pin INT
   bool is_error_flag_sticky = false;  ///< Mcp2515::Options
   BxcanOptions bxcan;

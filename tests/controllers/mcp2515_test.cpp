@@ -388,7 +388,7 @@ TEST_CASE("MCP2515: two controllers on one SPI bus are never selected at the sam
     CAPTURE(speed);
     Bench bench;
     bench.wire.accesses_per_bit = speed;
-    CO_MCP2515_BUS bus{};
+    CO_CAN_SPI_BUS bus{};
     ControllerOptions options;
     options.spi_bus = &bus;
     Controller& one = bench.add(Kind::mcp2515, options);
@@ -436,7 +436,7 @@ TEST_CASE("MCP2515: two controllers on one SPI bus are never selected at the sam
 
 TEST_CASE("MCP2515: while the application holds SPI the interrupt does not use it, and its work is done afterwards") {
   Bench bench;
-  CO_MCP2515_BUS bus{};
+  CO_CAN_SPI_BUS bus{};
   ControllerOptions options;
   options.spi_bus = &bus;
   Controller& can = bench.add(Kind::mcp2515, options);
@@ -456,7 +456,7 @@ TEST_CASE("MCP2515: while the application holds SPI the interrupt does not use i
 
 TEST_CASE("MCP2515: initialising a controller again, and an interrupt before that, change nothing on the SPI bus") {
   Bench bench;
-  CO_MCP2515_BUS bus{};
+  CO_CAN_SPI_BUS bus{};
   ControllerOptions options;
   options.spi_bus = &bus;
   options.starts = false;
@@ -483,7 +483,7 @@ TEST_CASE("MCP2515: a controller that does not answer refuses frames and receive
     CAPTURE(unsigned{answer});
     static std::uint8_t level;
     level = answer;
-    constexpr CO_MCP2515_SPI dead = {
+    constexpr CO_CAN_SPI dead = {
         [](void* /*ctx*/, bool /*is_selected*/) {},
         [](void* /*ctx*/, std::uint8_t* bytes, std::uint8_t number) { std::fill(bytes, bytes + number, level); },
         nullptr};
@@ -513,7 +513,7 @@ TEST_CASE("MCP2515: a controller that stops answering on the bus blocks neither 
   static Mcp2515* model;
   static bool is_dead;
   is_dead = false;
-  constexpr CO_MCP2515_SPI spi = {
+  constexpr CO_CAN_SPI spi = {
       [](void* /*ctx*/, bool is_selected) { is_selected ? model->select() : model->deselect(); },
       [](void* /*ctx*/, std::uint8_t* bytes, std::uint8_t number) {
         for (unsigned n = 0; n < number; ++n) {

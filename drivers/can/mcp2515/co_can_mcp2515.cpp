@@ -11,17 +11,6 @@ namespace {
 
 using report::State;
 
-void add_to_bus(Can& can) {
-  CO_MCP2515_BUS& bus = bus_of(can);
-  for (const Can* one = bus.First; one != nullptr; one = one->Next) {
-    if (one == &can) {
-      return;
-    }
-  }
-  can.Next = bus.First;
-  bus.First = &can;
-}
-
 // Empties receive buffers and queue. SPI is held, so no interrupt stores a frame meanwhile.
 void discard_received(Can& can) {
   clear_bits(can, CO_MCP2515_CANINTF, receive_interrupts | CO_MCP2515_INT_ERR);
@@ -102,7 +91,7 @@ struct Port {
     enable_interrupts(can, 0);
     can.Rate = nullptr;
     transmit::forget(can.Transmit);
-    report::store(can.IsMissed, std::uint8_t{0});
+    report::store(can.User.IsMissed, std::uint8_t{0});
     can.IsUnfinished = 0;
   }
 
@@ -126,7 +115,7 @@ struct Port {
 
   static void init(Can& can) {
     const Exclusive exclusive(can);
-    add_to_bus(can);
+    spi::add_to_bus(can, [](void* ctx) { service(*static_cast<Can*>(ctx)); });
     leave_bus(can);
     reset_controller(can);
     discard_received(can);
@@ -159,21 +148,17 @@ extern "C" {
 
 void COCanMcp2515Interrupt(CO_CAN_MCP2515* can) {
   ASSERT_PTR(can);
-  CO_MCP2515_BUS& bus = bus_of(*can);
-  report::store(can->IsMissed, std::uint8_t{1});
-  report::store(bus.HasNotes, std::uint8_t{1});
-  hold(bus);
-  release(bus);
+  spi::interrupt(*can);
 }
 
-void COCanMcp2515Hold(CO_MCP2515_BUS* bus) {
+void COCanMcp2515Hold(CO_CAN_SPI_BUS* bus) {
   ASSERT_PTR(bus);
-  hold(*bus);
+  spi::hold(*bus);
 }
 
-void COCanMcp2515Release(CO_MCP2515_BUS* bus) {
+void COCanMcp2515Release(CO_CAN_SPI_BUS* bus) {
   ASSERT_PTR(bus);
-  release(*bus);
+  spi::release(*bus);
 }
 
 bool COCanMcp2515HasFrames(const CO_CAN_MCP2515* can) { return mcp2515::Driver::has_frames(can); }

@@ -5,7 +5,7 @@
 ///
 ///     static const CO_CAN_MCP2515_RATE rates[] = {CO_CAN_MCP2515_RATE_OF(16000000, 500000, 16)};
 ///     static CO_IF_FRM frames[32];
-///     static const CO_MCP2515_SPI spi = {BoardSelect, BoardTransfer, BoardHasInterrupt};
+///     static const CO_CAN_SPI spi = {BoardSelect, BoardTransfer, BoardHasInterrupt};
 ///     static CO_CAN_MCP2515 can = {.Spi = &spi, .Rates = rates, .RateNum = 1, .Frames = frames, .FrameNum = 32};
 ///     ext.Can = &Mcp2515CanDriver;  ext.CanCtx = &can;               // CO_NODE_EXT
 ///     void EXTI0_IRQHandler(void) { ...  COCanMcp2515Interrupt(&can); }  // falling edge of INT
@@ -15,7 +15,7 @@
 ///
 /// SPI. The loop and the interrupt use SPI without a lock: while a function of the driver uses it, the interrupt only
 /// leaves a note, and that function does the work of the interrupt at its end. Controllers on one SPI bus share a
-/// CO_MCP2515_BUS. An application that has other devices on the bus calls COCanMcp2515Hold() before and
+/// CO_CAN_SPI_BUS. An application that has other devices on the bus calls COCanMcp2515Hold() before and
 /// COCanMcp2515Release() after it uses SPI. The interrupt is optional: without it, Read does its work.
 ///
 /// The driver computes the two masks and six filters from the identifiers that the node receives. Six identifiers pass
@@ -32,6 +32,7 @@
 #define CO_CAN_MCP2515_H_
 
 #include "../co_can_controller.h"
+#include "../co_can_spi.h"
 #include "co_if_can.h"
 #include "co_ring.h"
 #include "mcp2515_registers.h"
@@ -39,24 +40,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/// Functions of the board that access a controller.
-typedef struct CO_MCP2515_SPI_T {
-  void (*Select)(void* ctx, bool selected);  ///< true: CS low; false: CS high, after the last bit was transferred
-  /// Transfers bytes in both directions, the highest bit first, and returns when the last one was transferred. \a bytes
-  /// are sent and replaced by those received; \a num: 1…16.
-  void (*Transfer)(void* ctx, uint8_t* bytes, uint8_t num);
-  bool (*HasInterrupt)(void* ctx);  ///< returns true while INT is low; null: the pin cannot be read
-} CO_MCP2515_SPI;
-
-/// An SPI bus with several controllers, or with other devices. Initialise it with zero.
-typedef struct CO_MCP2515_BUS_T {
-  /// \cond internal
-  struct CO_CAN_MCP2515_T* First;  // controllers that were initialised
-  uint8_t Holds;                   // users of the bus: those that were interrupted, too
-  uint8_t HasNotes;                // a controller has IsMissed
-  /// \endcond
-} CO_MCP2515_BUS;
 
 /// A bit rate and the values of the registers for it.
 typedef struct CO_CAN_MCP2515_RATE_T {
@@ -114,9 +97,9 @@ typedef struct CO_MCP2515_ACCEPTANCE_T {
 
 /// A controller. Initialise it with zero, then set the members up to Loopback; the driver owns the others.
 typedef struct CO_CAN_MCP2515_T {
-  const CO_MCP2515_SPI* Spi;         ///< access to the controller
+  const CO_CAN_SPI* Spi;             ///< access to the controller
   void* SpiCtx;                      ///< its context
-  CO_MCP2515_BUS* Bus;               ///< null: no other device is on the SPI bus
+  CO_CAN_SPI_BUS* Bus;               ///< null: no other device is on the SPI bus
   const CO_CAN_MCP2515_RATE* Rates;  ///< must live as long as the node
   uint8_t RateNum;                   ///< length of that array
   uint8_t ClockOutput;               ///< CLKOUT: 0: off; 4…7: crystal divided by 1, 2, 4, 8
@@ -130,12 +113,10 @@ typedef struct CO_CAN_MCP2515_T {
   const CO_CAN_MCP2515_RATE* Rate;  // null: off the bus
   CO_MCP2515_TRANSMIT Transmit;
   CO_CAN_REPORT Report;
-  struct CO_CAN_MCP2515_T* Next;  // on the same SPI bus
-  CO_MCP2515_BUS OwnBus;          // without Bus
+  CO_CAN_SPI_USER User;
   CO_MCP2515_ACCEPTANCE Filters;
   uint8_t Priority[CO_CAN_MAILBOXES];  // TXBnCTRL.TXP
   uint8_t Flags;                       // last value of EFLG, without overflows
-  uint8_t IsMissed;                    // the interrupt has occurred, its work is not done
   uint8_t IsUnfinished;                // Read has to do more work
   uint8_t IsBusOff;                    // the controller stays in Configuration mode until Reset or Enable
   uint8_t IsAborting;                  // CANCTRL.ABAT is set
@@ -153,10 +134,10 @@ void COCanMcp2515Interrupt(CO_CAN_MCP2515* can);
 
 /// Reserves SPI for the application: COCanMcp2515Interrupt() of all controllers on \a bus does not use it until
 /// COCanMcp2515Release(). Calls may be nested. The driver must not be called meanwhile. Context: the loop.
-void COCanMcp2515Hold(CO_MCP2515_BUS* bus);
+void COCanMcp2515Hold(CO_CAN_SPI_BUS* bus);
 
 /// Ends COCanMcp2515Hold(), and does what the interrupts would have done meanwhile. Context: the loop.
-void COCanMcp2515Release(CO_MCP2515_BUS* bus);
+void COCanMcp2515Release(CO_CAN_SPI_BUS* bus);
 
 /// Returns true if received frames wait until they are read; a loop checks it before it sleeps.
 bool COCanMcp2515HasFrames(const CO_CAN_MCP2515* can);

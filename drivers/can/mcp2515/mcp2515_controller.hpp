@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "../spi.hpp"
 #include "co_can_mcp2515.h"
 #include "mcp2515_filters.hpp"
 
@@ -13,6 +14,9 @@ namespace co::mcp2515 {
 /// \cond internal
 
 using Can = CO_CAN_MCP2515;
+using spi::Exclusive;
+using spi::has_interrupt;
+using spi::transact;
 
 /// Readings until a wait ends without success. The frame on the wire has to end before the controller goes off the bus.
 inline constexpr unsigned status_reads = 20000;
@@ -25,8 +29,6 @@ inline constexpr std::uint8_t all_interrupts = receive_interrupts | transmit_int
 /// \name SPI instructions
 /// \{
 
-/// Transfers bytes while CS is low.
-void transact(const Can& can, std::uint8_t* bytes, unsigned number);
 /// Sends bytes of a word, the lowest one first. Returns the bytes that were received instead of them.
 std::uint32_t instruct(const Can& can, std::uint32_t word, unsigned number);
 
@@ -80,34 +82,11 @@ void await_idle_buffers(Can& can);
 void receive(Can& can, unsigned flags);
 
 /// \}
-/// \name Interrupts, and the use of SPI by loop and interrupt
+/// \name Interrupts
 /// \{
-
-inline CO_MCP2515_BUS& bus_of(Can& can) { return can.Bus != nullptr ? *can.Bus : can.OwnBus; }
-
-/// An interrupt may occur at any point, but it ends before this context continues, with the same value of Holds.
-void hold(CO_MCP2515_BUS& bus);
-/// Does the work of the interrupts that have occurred since hold(), unless this context has interrupted another user.
-void release(CO_MCP2515_BUS& bus);
-
-/// The use of SPI by a function of the driver: the interrupts do not use it meanwhile.
-class Exclusive {
- public:
-  explicit Exclusive(Can& can) : bus_(bus_of(can)) { hold(bus_); }
-  ~Exclusive() { release(bus_); }
-  Exclusive(const Exclusive&) = delete;
-  Exclusive& operator=(const Exclusive&) = delete;
-
- private:
-  CO_MCP2515_BUS& bus_;
-};
 
 /// Does the work of the interrupt, until INT is high. What is left after some rounds is done by Read.
 void service(Can& can);
-
-inline bool has_interrupt(const Can& can) {
-  return can.Spi->HasInterrupt == nullptr || can.Spi->HasInterrupt(can.SpiCtx);
-}
 
 inline bool is_in_bus_off(const Can& can) { return can.IsBusOff != 0 || (can.Flags & CO_MCP2515_EFLG_TXBO) != 0; }
 

@@ -1,53 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mcp2515_filters.hpp"
 
-#include "../mask_filters.hpp"
-
 namespace co::mcp2515 {
 namespace {
 
-using mask_filters::count_bits;
-using Item = mask_filters::Filter<std::uint32_t>;
-
-constexpr std::uint32_t standard_mask = extended_bit | (std::uint32_t{0x7FF} << 18);
-constexpr std::uint32_t all_bits = extended_bit | 0x1FFFFFFF;
+using identifiers::all_bits;
+using identifiers::width;
 constexpr unsigned most_items = 12;
-
 using Items = mask_filters::Filters<std::uint32_t, most_items>;
-
-Item exactly(std::uint32_t identifier) {
-  return {word_of(identifier), transmit::is_extended(identifier) ? all_bits : standard_mask};
-}
-
-// Returns the number of 11-bit identifiers, or of groups of 2^15 29-bit identifiers, that pass a filter.
-std::int32_t width(const Item& item) {
-  constexpr unsigned bits_of_group = 15;
-  const bool is_extended = (item.word & extended_bit) != 0;
-  const unsigned open = count_bits((is_extended ? all_bits : standard_mask) & ~item.mask);
-  const unsigned ignored = is_extended ? bits_of_group : 0;
-  return std::int32_t{1} << (open > ignored ? open - ignored : 0);
-}
-
-std::int32_t added_by_merging(const Item& a, const Item& b) {
-  const bool is_same_kind = ((a.word ^ b.word) & extended_bit) == 0;
-  return is_same_kind ? width(mask_filters::both(a, b)) - width(a) - width(b) : INT32_MAX;
-}
-
-// Returns the identifiers as at most most_items filters with different masks.
-Items items_of(const std::uint32_t* ids, unsigned num) {
-  Items items = {};
-  for (unsigned n = 0; n < num; ++n) {
-    const Item item = exactly(ids[n]);
-    if (mask_filters::passes(items, item)) {
-      continue;
-    }
-    items.filter[items.number++] = item;
-    if (items.number > most_items) {
-      mask_filters::merge_two(items, added_by_merging);
-    }
-  }
-  return items;
-}
 
 // Filters with a common mask.
 struct Group {
@@ -164,7 +124,8 @@ void store(Filters& filters, unsigned buffer, const Group& group) {
 
 Filters filters_of(const std::uint32_t* ids, unsigned num) {
   constexpr std::uint32_t nobody = CO_IF_FRM_EXT | 0x1FFFFFFF;
-  const Items items = num != 0 ? items_of(ids, num) : items_of(&nobody, 1);
+  const Items items =
+      num != 0 ? identifiers::items_of<most_items>(ids, num) : identifiers::items_of<most_items>(&nobody, 1);
   Pair best = best_pair_from(items, 0);
   const Pair other = best_pair_from(items, (1U << items.number) - 1);
   best = other.cost() < best.cost() ? other : best;

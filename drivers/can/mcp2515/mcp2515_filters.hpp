@@ -6,15 +6,11 @@
 
 #include <cstdint>
 
-#include "../transmit.hpp"
+#include "../mask_filters.hpp"
 #include "co_can_mcp2515.h"
 
 namespace co::mcp2515 {
 /// \cond internal
-
-/// Bit of a word: 29-bit identifier. It is always compared. Bits 0…28 are the identifier; that of 11 bits is in bits
-/// 18…28.
-inline constexpr std::uint32_t extended_bit = std::uint32_t{1} << 29;
 
 inline constexpr unsigned receive_buffers = 2;
 inline constexpr unsigned filter_number = 6;
@@ -22,12 +18,8 @@ inline constexpr unsigned filter_number = 6;
 inline constexpr unsigned filters_of_buffer[receive_buffers] = {2, 4};
 
 using Filters = CO_MCP2515_ACCEPTANCE;
-
-/// Returns the word of an identifier, which is coded like in CO_IF_FRM.
-inline std::uint32_t word_of(std::uint32_t identifier) {
-  const std::uint32_t id = identifier & CO_IF_FRM_ID;
-  return transmit::is_extended(identifier) ? id | extended_bit : id << 18;
-}
+using identifiers::extended_bit;
+using identifiers::word_of;
 
 /// Returns filters that pass all frames.
 constexpr Filters open_filters() { return {{0, 0}, {0, extended_bit, 0, extended_bit, 0, extended_bit}}; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The work of the interrupt, and the use of SPI by loop and interrupt.
+// The work of the interrupt.
 #include "../controller.hpp"
 #include "mcp2515_controller.hpp"
 
@@ -73,17 +73,6 @@ bool service_once(Can& can) {
   return enabled != 0;
 }
 
-// Does the work of the interrupts that have occurred while SPI was in use.
-void work_off(CO_MCP2515_BUS& bus) {
-  report::store(bus.HasNotes, std::uint8_t{0});
-  for (Can* can = bus.First; can != nullptr; can = can->Next) {
-    if (report::load(can->IsMissed) != 0) {
-      report::store(can->IsMissed, std::uint8_t{0});
-      service(*can);
-    }
-  }
-}
-
 }  // namespace
 
 void service(Can& can) {
@@ -95,17 +84,6 @@ void service(Can& can) {
     is_unfinished = service_once(can) && has_interrupt(can);
   }
   can.IsUnfinished = is_unfinished ? 1 : 0;
-}
-
-void hold(CO_MCP2515_BUS& bus) { report::store(bus.Holds, static_cast<std::uint8_t>(bus.Holds + 1)); }
-
-void release(CO_MCP2515_BUS& bus) {
-  report::store(bus.Holds, static_cast<std::uint8_t>(bus.Holds - 1));
-  while (bus.Holds == 0 && report::load(bus.HasNotes) != 0) {
-    hold(bus);
-    work_off(bus);
-    report::store(bus.Holds, static_cast<std::uint8_t>(bus.Holds - 1));
-  }
 }
 
 }  // namespace co::mcp2515

@@ -26,12 +26,6 @@ bool await_configuration(const Can& can) {
 
 }  // namespace
 
-void transact(const Can& can, std::uint8_t* bytes, unsigned number) {
-  can.Spi->Select(can.SpiCtx, true);
-  can.Spi->Transfer(can.SpiCtx, bytes, static_cast<std::uint8_t>(number));
-  can.Spi->Select(can.SpiCtx, false);
-}
-
 std::uint32_t instruct(const Can& can, std::uint32_t word, unsigned number) {
   std::uint8_t bytes[4];
   transmit::unpack(word, bytes);
