@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_can_controller.h
-/// Properties and types that the drivers for CAN controllers have in common: bxCAN, M_CAN, FlexCAN, MCP2515, SJA1000,
-/// TWAI and ZynqMP. C and C++, bare metal or in a task of an RTOS. The header of each driver has the differences.
+/// Properties and types that the drivers for CAN controllers have in common: bxCAN, M_CAN, FlexCAN, MCP2515, MCP251xFD,
+/// SJA1000, TWAI and ZynqMP. C and C++, bare metal or in a task of an RTOS. The header of each driver has the
+/// differences.
 ///
 /// Each controller has a context, a structure that is initialised with zero. The application sets, besides the members
 /// that are described there:

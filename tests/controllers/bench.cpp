@@ -2,6 +2,7 @@
 #include "bench.hpp"
 
 #include <stdexcept>
+#include <type_traits>
 
 #include "bit_timing.hpp"
 #include "bxcan.hpp"
@@ -9,6 +10,8 @@
 #include "co_can_bxcan.h"
 #include "co_can_fdcan.h"
 #include "co_can_flexcan.h"
+#include "co_can_mcp2515.h"
+#include "co_can_mcp251xfd.h"
 #include "co_can_sja1000.h"
 #include "co_can_twai.h"
 #include "fdcan_rates.hpp"
@@ -17,6 +20,8 @@
 #include "m_can.hpp"
 #include "mcp2515.hpp"
 #include "mcp2515_rates.hpp"
+#include "mcp251xfd.hpp"
+#include "mcp251xfd_rates.hpp"
 #include "pelican.hpp"
 #include "sja1000_rates.hpp"
 #include "support/notation.hpp"
@@ -294,26 +299,48 @@ class TwaiController : public Sja1000Base<CO_CAN_TWAI> {
 };
 
 // Functions of the board: SPI to the model.
-void select_mcp2515(void* ctx, bool is_selected) {
-  Mcp2515& model = *static_cast<Mcp2515*>(ctx);
+void select_spi(void* ctx, bool is_selected) {
+  SpiModel& model = *static_cast<SpiModel*>(ctx);
   is_selected ? model.select() : model.deselect();
 }
-void transfer_mcp2515(void* ctx, std::uint8_t* bytes, std::uint8_t number) {
+void transfer_spi(void* ctx, std::uint8_t* bytes, std::uint8_t number) {
   for (unsigned n = 0; n < number; ++n) {
-    bytes[n] = static_cast<Mcp2515*>(ctx)->transfer(bytes[n]);
+    bytes[n] = static_cast<SpiModel*>(ctx)->transfer(bytes[n]);
   }
 }
-bool mcp2515_has_interrupt(void* ctx) { return static_cast<Mcp2515*>(ctx)->interrupt(); }
-constexpr CO_CAN_SPI mcp2515_spi = {select_mcp2515, transfer_mcp2515, mcp2515_has_interrupt};
-constexpr CO_CAN_SPI mcp2515_spi_without_pin = {select_mcp2515, transfer_mcp2515, nullptr};
+bool spi_has_interrupt(void* ctx) { return static_cast<SpiModel*>(ctx)->interrupt(); }
+constexpr CO_CAN_SPI board_spi = {select_spi, transfer_spi, spi_has_interrupt};
+constexpr CO_CAN_SPI board_spi_without_pin = {select_spi, transfer_spi, nullptr};
 
-class Mcp2515Controller : public Controller {
+class SpiController : public Controller {
  public:
-  Mcp2515Controller(CanWire& wire, const ControllerOptions& options)
-      : model(wire, model_options(options)), frames_(options.frames) {
-    driver = &Mcp2515CanDriver;
-    can_.Spi = options.has_interrupt_pin ? &mcp2515_spi : &mcp2515_spi_without_pin;
-    can_.SpiCtx = &model;
+  SpiController() = default;
+
+  // The interrupt is triggered by the falling edge of INT.
+  bool has_interrupt() const override {
+    const bool was_low = is_low_;
+    is_low_ = spi().interrupt();
+    return is_low_ && !was_low;
+  }
+  RegisterModel& registers() override { throw std::logic_error("no memory-mapped registers"); }
+  bool has_faults() override { return !spi().faults().empty(); }
+  std::string fault_text() override { return spi().fault_text(); }
+  void on_access(std::function<void()> function) override { spi().on_transfer = std::move(function); }
+
+  virtual SpiModel& spi() const = 0;
+
+ private:
+  mutable bool is_low_ = false;
+};
+
+// The model of a controller behind SPI, and what their contexts have in common.
+template <class Model, class Context>
+class SpiBase : public SpiController {
+ public:
+  SpiBase(CanWire& wire, const ControllerOptions& options, const typename Model::Options& model_options)
+      : model(wire, model_options), frames_(options.frames) {
+    can_.Spi = options.has_interrupt_pin ? &board_spi : &board_spi_without_pin;
+    can_.SpiCtx = static_cast<SpiModel*>(&model);
     can_.Bus = options.spi_bus;
     can_.Rates = rates_;
     can_.RateNum = 1;
@@ -321,46 +348,77 @@ class Mcp2515Controller : public Controller {
     can_.FrameNum = options.frames;
     can_.Recovery = options.recovery;
     can_.Loopback = options.loopback;
+  }
+
+  void* context() override { return &can_; }
+  CanNode& node() override { return model.node(); }
+  SpiModel& spi() const override { return model; }
+  std::uint32_t bit_rate() const override { return model.bit_rate(); }
+  unsigned sample_point() const override { return model.sample_point(); }
+  void set_timing(std::uint32_t baud, std::uint32_t timing) override { rates_[0] = {baud, timing}; }
+
+  mutable Model model;
+
+ protected:
+  std::remove_const_t<std::remove_pointer_t<decltype(Context::Rates)>> rates_[1]{};
+  mutable Context can_{};
+
+ private:
+  std::vector<CO_IF_FRM> frames_;
+};
+
+// Returns the crystal: the clock of the other controllers is too fast for those behind SPI.
+std::uint32_t crystal_of(const ControllerOptions& options, std::uint32_t usual) {
+  return options.clock == ControllerOptions{}.clock ? usual : options.clock;
+}
+
+class Mcp2515Controller : public SpiBase<Mcp2515, CO_CAN_MCP2515> {
+ public:
+  Mcp2515Controller(CanWire& wire, const ControllerOptions& options) : SpiBase(wire, options, model_options(options)) {
+    driver = &Mcp2515CanDriver;
     const std::uint32_t clock = model_options(options).oscillator;
     rates_[0] = co::mcp2515_rate(Bench::baud, co::find_bit_timing(clock / 2, Bench::baud, co::mcp2515_limits));
   }
 
-  void* context() override { return &can_; }
-  // The interrupt is triggered by the falling edge of INT.
-  bool has_interrupt() const override {
-    const bool was_low = is_low_;
-    is_low_ = model.interrupt();
-    return is_low_ && !was_low;
-  }
   void call_interrupt() override { COCanMcp2515Interrupt(&can_); }
   bool has_frames() const override { return COCanMcp2515HasFrames(&can_); }
   std::uint32_t lost() const override { return COCanMcp2515Lost(&can_); }
   CO_CAN_ERROR_COUNTERS errors() const override { return COCanMcp2515Errors(&can_); }
-  CanNode& node() override { return model.node(); }
-  RegisterModel& registers() override { throw std::logic_error("MCP2515 has no memory-mapped registers"); }
-  bool has_faults() override { return !model.faults().empty(); }
-  std::string fault_text() override { return model.fault_text(); }
-  void on_access(std::function<void()> function) override { model.on_transfer = std::move(function); }
-  std::uint32_t bit_rate() const override { return model.bit_rate(); }
-  unsigned sample_point() const override { return model.sample_point(); }
-  void set_timing(std::uint32_t baud, std::uint32_t timing) override { rates_[0] = {baud, timing}; }
   unsigned fifo_places() const override { return 2; }
 
-  Mcp2515 model;
-
  private:
-  // The clock of the other controllers is too fast for this one.
   static Mcp2515::Options model_options(const ControllerOptions& options) {
     Mcp2515::Options result;
-    result.oscillator = options.clock == ControllerOptions{}.clock ? 16'000'000 : options.clock;
+    result.oscillator = crystal_of(options, 16'000'000);
     result.is_error_flag_sticky = options.is_error_flag_sticky;
     return result;
   }
+};
 
-  CO_CAN_MCP2515_RATE rates_[1]{};
-  std::vector<CO_IF_FRM> frames_;
-  mutable CO_CAN_MCP2515 can_{};
-  mutable bool is_low_ = false;
+class Mcp251xfdController : public SpiBase<Mcp251xfd, CO_CAN_MCP251XFD> {
+ public:
+  Mcp251xfdController(CanWire& wire, const ControllerOptions& options)
+      : SpiBase(wire, options, model_options(options)) {
+    driver = &Mcp251xfdCanDriver;
+    const std::uint32_t clock = model_options(options).oscillator;
+    rates_[0] = co::mcp251xfd_rate(Bench::baud, co::find_bit_timing(clock, Bench::baud, co::mcp251xfd_limits));
+  }
+
+  void call_interrupt() override { COCanMcp251xfdInterrupt(&can_); }
+  bool has_frames() const override { return COCanMcp251xfdHasFrames(&can_); }
+  std::uint32_t lost() const override { return COCanMcp251xfdLost(&can_); }
+  CO_CAN_ERROR_COUNTERS errors() const override { return COCanMcp251xfdErrors(&can_); }
+  unsigned fifo_places() const override { return 32; }
+
+ private:
+  static Mcp251xfd::Options model_options(const ControllerOptions& options) {
+    Mcp251xfd::Options result;
+    result.oscillator = crystal_of(options, 40'000'000);
+    result.keeps_messages_in_bus_off = options.keeps_messages_in_bus_off;
+    result.is_2517 = options.number != 0;
+    result.start_up_reads = 3;
+    return result;
+  }
 };
 
 bool is_error(const std::string& text) { return text.size() > 8 && text[8] == '#' && text[0] == '2'; }
@@ -368,6 +426,8 @@ bool is_error(const std::string& text) { return text.size() > 8 && text[8] == '#
 }  // namespace
 
 Mcp2515& mcp2515_of(Controller& controller) { return static_cast<Mcp2515Controller&>(controller).model; }
+Mcp251xfd& mcp251xfd_of(Controller& controller) { return static_cast<Mcp251xfdController&>(controller).model; }
+SpiModel& spi_of(Controller& controller) { return static_cast<SpiController&>(controller).spi(); }
 
 std::string name_of(Kind kind) {
   switch (kind) {
@@ -380,6 +440,7 @@ std::string name_of(Kind kind) {
     case Kind::esp32: return "TWAI of ESP32";
     case Kind::esp32c3: return "TWAI of ESP32-C3";
     case Kind::mcp2515: return "MCP2515";
+    case Kind::mcp251xfd: return "MCP251xFD";
   }
   return "";
 }
@@ -476,6 +537,8 @@ Controller& Bench::add(Kind kind, const ControllerOptions& options) {
     controllers_.push_back(std::make_unique<Sja1000Controller>(wire, options));
   } else if (kind == Kind::mcp2515) {
     controllers_.push_back(std::make_unique<Mcp2515Controller>(wire, options));
+  } else if (kind == Kind::mcp251xfd) {
+    controllers_.push_back(std::make_unique<Mcp251xfdController>(wire, options));
   } else if (is_twai(kind)) {
     controllers_.push_back(std::make_unique<TwaiController>(wire, kind, options));
   } else {

@@ -23,7 +23,7 @@
 
 #include "can_wire.hpp"
 #include "co_can_controller.h"
-#include "co_can_mcp2515.h"
+#include "co_can_spi.h"
 #include "co_if_can.h"
 #include "register_model.hpp"
 
@@ -33,17 +33,20 @@ class Bench;
 
 /// Controllers: bxCAN, M_CAN with fixed message memory (FDCAN), M_CAN with configurable message memory, FlexCAN2 with
 /// the receive FIFO, FlexCAN3 with message buffers that receive, and others.
-enum class Kind : std::uint8_t { bxcan, fdcan, mcan, flexcan2, flexcan3, sja1000, esp32, esp32c3, mcp2515 };
+enum class Kind : std::uint8_t { bxcan, fdcan, mcan, flexcan2, flexcan3, sja1000, esp32, esp32c3, mcp2515, mcp251xfd };
 inline constexpr Kind all_kinds[] = {Kind::bxcan,   Kind::fdcan, Kind::mcan,    Kind::flexcan2, Kind::flexcan3,
-                                     Kind::sja1000, Kind::esp32, Kind::esp32c3, Kind::mcp2515};
+                                     Kind::sja1000, Kind::esp32, Kind::esp32c3, Kind::mcp2515,  Kind::mcp251xfd};
 /// Controllers with filters for single identifiers that can change on the bus, and with a loopback that is disconnected
 /// from the bus.
-inline constexpr Kind mailbox_kinds[] = {Kind::bxcan, Kind::fdcan, Kind::mcan, Kind::flexcan2, Kind::flexcan3};
+inline constexpr Kind mailbox_kinds[] = {Kind::bxcan,    Kind::fdcan,    Kind::mcan,
+                                         Kind::flexcan2, Kind::flexcan3, Kind::mcp251xfd};
 /// Controllers with a loopback that is disconnected from the bus.
-inline constexpr Kind isolated_kinds[] = {Kind::bxcan,    Kind::fdcan,    Kind::mcan,
-                                          Kind::flexcan2, Kind::flexcan3, Kind::mcp2515};
+inline constexpr Kind isolated_kinds[] = {Kind::bxcan,    Kind::fdcan,   Kind::mcan,     Kind::flexcan2,
+                                          Kind::flexcan3, Kind::mcp2515, Kind::mcp251xfd};
 /// SJA1000 and TWAI of ESP32 and ESP32-C3.
 inline constexpr Kind sja1000_kinds[] = {Kind::sja1000, Kind::esp32, Kind::esp32c3};
+/// Controllers behind SPI.
+inline bool is_spi(Kind kind) { return kind == Kind::mcp2515 || kind == Kind::mcp251xfd; }
 inline bool is_flexcan(Kind kind) { return kind == Kind::flexcan2 || kind == Kind::flexcan3; }
 inline bool is_twai(Kind kind) { return kind == Kind::esp32 || kind == Kind::esp32c3; }
 inline bool is_sja1000(Kind kind) { return kind == Kind::sja1000 || is_twai(kind); }
@@ -61,14 +64,15 @@ struct ControllerOptions {
   unsigned number = 0;  ///< 0: CAN1, 1: CAN2, which shares the filter banks or the message memory of CAN1
   CO_CAN_RECOVERY recovery = CO_CAN_RECOVERY_BY_APPLICATION;
   bool loopback = false;
-  bool wait_for_idle = false;         ///< CO_CAN_FDCAN.WaitForIdle
-  std::uint16_t frames = 64;          ///< places in the queue
-  std::uint8_t fifo = 4;              ///< places in the receive FIFO of Kind::mcan
-  std::uint32_t clock = 48'000'000;   ///< Hz
-  bool starts = true;                 ///< Init, Enable; false: neither
-  CO_CAN_SPI_BUS* spi_bus = nullptr;  ///< of Kind::mcp2515
-  bool has_interrupt_pin = true;      ///< Kind::mcp2515: the driver can read the pin INT
-  bool is_error_flag_sticky = false;  ///< Mcp2515::Options
+  bool wait_for_idle = false;              ///< CO_CAN_FDCAN.WaitForIdle
+  std::uint16_t frames = 64;               ///< places in the queue
+  std::uint8_t fifo = 4;                   ///< places in the receive FIFO of Kind::mcan
+  std::uint32_t clock = 48'000'000;        ///< Hz
+  bool starts = true;                      ///< Init, Enable; false: neither
+  CO_CAN_SPI_BUS* spi_bus = nullptr;       ///< of a controller behind SPI
+  bool has_interrupt_pin = true;           ///< behind SPI: the driver can read the pin INT
+  bool is_error_flag_sticky = false;       ///< Mcp2515::Options
+  bool keeps_messages_in_bus_off = false;  ///< Mcp251xfd::Options
   BxcanOptions bxcan;
 };
 
@@ -98,11 +102,11 @@ class Controller {
   virtual CO_CAN_ERROR_COUNTERS errors() const = 0;
 
   virtual CanNode& node() = 0;
-  /// Returns the model. That of Kind::mcp2515 has no registers: the functions below work for all.
+  /// Returns the model. That of a controller behind SPI has none: the functions below work for all.
   virtual RegisterModel& registers() = 0;
   virtual bool has_faults() { return !registers().faults().empty(); }
   virtual std::string fault_text() { return registers().fault_text(); }
-  /// Sets a function that is called before each access of the driver; for Kind::mcp2515 before each byte.
+  /// Sets a function that is called before each access of the driver; behind SPI before each byte.
   virtual void on_access(std::function<void()> function) { registers().on_access = std::move(function); }
   /// Returns whether the controller is in bus-off, or off the bus.
   bool is_off_bus() { return node().is_bus_off() || node().state() == CanNode::State::off; }
@@ -117,8 +121,14 @@ class Controller {
 };
 
 class Mcp2515;
+class Mcp251xfd;
+class SpiModel;
 /// Returns the model of a controller of Kind::mcp2515.
 Mcp2515& mcp2515_of(Controller& controller);
+/// Returns the model of a controller of Kind::mcp251xfd.
+Mcp251xfd& mcp251xfd_of(Controller& controller);
+/// Returns the model of a controller behind SPI.
+SpiModel& spi_of(Controller& controller);
 
 class Bench {
  public:

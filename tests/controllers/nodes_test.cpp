@@ -138,7 +138,8 @@ constexpr Pair pairs[] = {
     {Kind::bxcan, Kind::bxcan},       {Kind::fdcan, Kind::fdcan},     {Kind::mcan, Kind::mcan},
     {Kind::bxcan, Kind::fdcan},       {Kind::mcan, Kind::bxcan},      {Kind::flexcan2, Kind::flexcan2},
     {Kind::flexcan3, Kind::flexcan2}, {Kind::sja1000, Kind::sja1000}, {Kind::esp32c3, Kind::sja1000},
-    {Kind::esp32, Kind::fdcan},       {Kind::mcp2515, Kind::mcp2515}, {Kind::bxcan, Kind::mcp2515}};
+    {Kind::esp32, Kind::fdcan},       {Kind::mcp2515, Kind::mcp2515}, {Kind::bxcan, Kind::mcp2515},
+    {Kind::mcp251xfd, Kind::mcp2515}};
 
 ControllerOptions options_of(unsigned number, CO_CAN_RECOVERY recovery) {
   ControllerOptions options;

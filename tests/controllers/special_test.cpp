@@ -143,7 +143,8 @@ TEST_CASE("bxCAN: two controllers divide 28 filter banks, whichever is initialis
 
 // M_CAN ---------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("M_CAN: CAN FD frames of other nodes are acknowledged and discarded, bxCAN and FlexCAN destroy them") {
+TEST_CASE(
+    "M_CAN, MCP251xFD: CAN FD frames of other nodes are acknowledged and discarded, bxCAN and FlexCAN destroy them") {
   for (const Kind kind : mailbox_kinds) {
     CAPTURE(name_of(kind));
     Bench bench;

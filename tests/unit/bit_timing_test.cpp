@@ -20,6 +20,7 @@ constexpr BitTimingLimits bxcan = {1024, 16, 8, 4};
 constexpr BitTimingLimits fdcan = {512, 256, 128, 128};
 constexpr BitTimingLimits sja1000 = {64, 16, 8, 4};     // clock: half of the crystal's frequency
 constexpr BitTimingLimits mcp2515 = {64, 16, 8, 4, 2};  // likewise
+constexpr BitTimingLimits mcp251xfd = {256, 256, 128, 128};
 
 struct KnownTiming {
   const char* source;
@@ -53,6 +54,7 @@ const KnownTiming known_timings[] = {
     {"80 MHz, FDCAN, all quanta of one period", 80000000, 1000000, fdcan, {1, 69, 10, 10}, 8750},
     {"80 MHz, FDCAN, segment 1 is limited", 80000000, 250000, fdcan, {2, 139, 20, 20}, 8750},
     {"16 MHz, MCP2515", 8000000, 1000000, mcp2515, {1, 5, 2, 2}, 7500},
+    {"40 MHz, MCP2518FD", 40000000, 500000, mcp251xfd, {1, 69, 10, 10}, 8750},
 };
 
 std::string text(const BitTiming& timing) {
@@ -83,7 +85,7 @@ TEST_CASE("bit timing: the results are those of application notes and of tables 
 
 TEST_CASE("bit timing: each result is within the limits of the controller and CiA's tolerances [301]") {
   unsigned found = 0;
-  for (const BitTimingLimits& limits : {zynqmp, bxcan, fdcan, sja1000, mcp2515}) {
+  for (const BitTimingLimits& limits : {zynqmp, bxcan, fdcan, sja1000, mcp2515, mcp251xfd}) {
     for (std::uint32_t clock = 4000000; clock <= 120000000; clock += 333000 * test::stride(7)) {
       for (const std::uint32_t rate : co::cia_bit_rates) {
         const BitTiming timing = co::find_bit_timing(clock, rate, limits);
