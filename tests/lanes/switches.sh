@@ -7,12 +7,13 @@ of=$results/switches
 
 switches=(USE_CALLBACKS=0 USE_DICT_CHECK=0 USE_FAST_PATHS=0 USE_CSDO=0 USE_SDO_BLOCK=0 CO_CSDO_BLOCK=0
   USE_CSDO_OWN=0 CO_RPDO_N=0 CO_TPDO_N=0 USE_PDO_BITS=1 USE_PDO_RTR=0 CO_MPDO_N=16 USE_OD=1 USE_SYNC=0 USE_TIME=1
+  USE_TIME=1+USE_TIME_HIGH_RES=1
   USE_GFC=1 CO_SRDO_N=1 USE_EMCY=0 CO_EMCY_QUEUE_N=0 CO_EMCY_CONS_N=1 CO_HBCONS_N=0 USE_GUARDING=0 USE_NMT_MASTER=1
   USE_LED=1 USE_LSS=0 USE_LSS_MASTER=1 USE_PARA=0 USE_RECORDER=1 USE_REAL_TIME=1)
 
 lane() {
   local targets=(lexican "${switches[@]/#/lexican_}")
-  targets=("${targets[@]/=/_}")
+  targets=("${targets[@]//[=+]/_}")
   choose_cpu m0plus
   build_m0plus -DLEXICAN_SIZES=ON -DLEXICAN_SWITCHES="$(IFS=';'; echo "${switches[*]}")" && size_of_switches || return
   report switches "switch" --percent 1 --slack 32 \
@@ -21,13 +22,15 @@ lane() {
 
 # Stores the difference in size of each switch's other value to presets/slave.h, with all functions kept.
 size_of_switches() {
-  local switch before after
+  local switch before after name
   rm -f "$of-flash" "$of-ram"
   before=($(size_with m0plus/lexican_slave)) || return
   for switch in "${switches[@]}"; do
-    after=($(size_with "m0plus/lexican_${switch/=/_}" -D"$switch")) || return
-    printf '%s %s\t%d\n' "${switch%=*}" "${switch#*=}" $((after[0] - before[0])) >>"$of-flash"
-    printf '%s %s\t%d\n' "${switch%=*}" "${switch#*=}" $((after[1] - before[1])) >>"$of-ram"
+    # shellcheck disable=SC2086
+    after=($(size_with "m0plus/lexican_${switch//[=+]/_}" -D${switch//+/ -D})) || return
+    name=${switch//=/ }
+    printf '%s\t%d\n' "${name//+/, }" $((after[0] - before[0])) >>"$of-flash"
+    printf '%s\t%d\n' "${name//+/, }" $((after[1] - before[1])) >>"$of-ram"
   done
 }
 
