@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """table.py ROOT
 
-Compares the table of objects in docs/object-support.md with the recipes in tests/cookbook: each row
+Compares the table of objects in docs/features.md with the recipes in tests/cookbook: each row
   | 1005h | 0 | name | `TYPE` | `FLAGS`, `FLAGS` | data | `SETTING` | `TEST` |
 needs an entry of that index, sub-index and type in a recipe, with each of the flags, and a test that names the index.
 Compares it also with the list of objects in include/lexican/detail/objects.h: each row of the list has a row in the
@@ -16,7 +16,7 @@ import sys
 
 ROW = re.compile(r"^\| ([0-9A-F]{4})h…? \| (\d+)…? \| [^|]* \| `(\w+)` \| ([^|]*) \| ([^|]*) \| ([^|]*)\| `([\w.]+)` \|$",
                  re.MULTILINE)
-TEST = re.compile(r"^\| .* \| `([\w.]+)` \|$", re.MULTILINE)
+TEST = re.compile(r"^\| .* \| `(\w+_test|\w+\.c)` \|$", re.MULTILINE)
 OBJECT = re.compile(r"^  X\((.*)\)", re.MULTILINE)
 ENTRY = re.compile(r"\{CO_KEY\(0x([0-9A-F]{4}), (\d+), (\w+)\), (\w+),")
 
@@ -70,7 +70,7 @@ def main():
     entries = set()
     for recipe in (root / "tests/cookbook").glob("*.c"):
         entries.update(ENTRY.findall(recipe.read_text(encoding="utf-8")))
-    page = (root / "docs/object-support.md").read_text(encoding="utf-8")
+    page = (root / "docs/features.md").read_text(encoding="utf-8")
     rows = ROW.findall(page)
     listed = OBJECT.findall((root / "include/lexican/detail/objects.h").read_text(encoding="utf-8"))
     objects = list(map(Object, listed))

@@ -2,7 +2,7 @@
 /// \file lexican/detail/objects.h
 /// The objects for which the stack has a type: one row for each type and its indices. From it come the rules of the
 /// compiler and of the node (lexican/detail/rules.hpp, lexican/dictionary.hpp) and the types that codict chooses; a
-/// test compares it with docs/object-support.md. Needs no configuration: settings are names.
+/// test compares it with docs/features.md. Needs no configuration: settings are names.
 #ifndef LEXICAN_DETAIL_OBJECTS_H_
 #define LEXICAN_DETAIL_OBJECTS_H_
 
