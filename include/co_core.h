@@ -100,7 +100,8 @@ typedef struct CO_NODE_EXT_T {
   const CO_CALLBACKS* Callbacks;  ///< functions that receive the node and User (co_callbacks.h), or null
   uint32_t SdoBufLen;             ///< bytes at CO_NODE_SPEC.SdoBuf (CO_SDO_BUFFER()); 0: unknown, not checked
 #if USE_TIME_HIGH_RES
-  /// Counter of microseconds that wraps at 2^32, for the high-resolution time stamp (co_time.h); null: the timer.
+  /// Returns a counter of microseconds that wraps at 2^32, for the high-resolution time stamp (co_time.h); null: the
+  /// timer. Called where SYNC is processed, and by the functions of that clock.
   uint32_t (*Microseconds)(void* user);
 #endif
 } CO_NODE_EXT;

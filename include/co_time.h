@@ -58,8 +58,8 @@ typedef struct CO_TIME_HIGH_RES_T {
   uint32_t MeasuredTime;   ///< time stamp then
   uint32_t Sync;           ///< local time at the last SYNC
   uint32_t Before;         ///< local time at the SYNC before
-  uint32_t Frame;          ///< frames received at the last SYNC
   uint8_t Syncs;           ///< SYNCs since the last time stamp, at most 2
+  uint8_t InSync;          ///< 1 while the PDOs of a SYNC are processed
   uint8_t Rejected;        ///< time stamps in succession that do not fit
   uint8_t Flags;           ///< the clock is set, its rate is measured, time stamps fit
 } CO_TIME_HIGH_RES;
@@ -142,17 +142,19 @@ extern const CO_OBJ_TYPE COTTimeClock CO_NEEDS(USE_TIME);  ///< functions of CO_
 /// 1013h [CiA 301, 7.5.2.16] is the value of a clock in µs at the last SYNC; it wraps at 2^32 (71.6 min). All nodes
 /// receive a SYNC at the same time, so the value of one node synchronises the clocks of the others, within the jitter
 /// with which they process a SYNC.
-/// - Producer: sets its clock once (COTimeHighResSet()) and maps 1013h into a TPDO. One that receives the SYNC is more
-///   exact than the producer of SYNC, whose SYNC may wait for other frames.
-/// - Consumer: maps 1013h into an RPDO of any transmission type. The first time stamp sets the clock; the following
-/// ones
-///   correct it: a quarter of each difference at once, and the rate, measured over more than a second, up to 977 ppm.
-///   The clock goes on without time stamps.
+/// - Producer: the application sets the clock once (COTimeHighResSet()) and maps 1013h into a TPDO. A producer of time
+///   stamps that receives the SYNC is more exact than the producer of SYNC, whose SYNC may wait for other frames.
+/// - Consumer: maps 1013h into an RPDO. An event-driven RPDO must arrive before the next SYNC; a synchronous RPDO,
+/// which
+///   is written at the next SYNC, belongs to the SYNC before. The first time stamp sets the clock; each further one
+///   corrects it by a quarter of the difference, and its rate, which is measured over more than a second, by up to
+///   977 ppm. Time stamps should arrive at least once a minute.
 ///
-/// A time stamp counts only after a SYNC, and only the first one. One that differs by more than 250 µs, 977 ppm of the
-/// time since the last one, and two ticks of the timer is ignored: a SYNC was lost, or there is another producer. The
-/// fourth such time stamp in succession sets the clock. The local time of a node has the resolution of its timer, or is
-/// CO_NODE_EXT.Microseconds. The loop may be late by up to 2^32 ticks less one second.
+/// A time stamp counts only after a SYNC, and only the first one that fits. It does not fit if it differs by more than
+/// 250 µs, 977 ppm of the time since the last one, and two ticks of the timer: a SYNC was lost, or there is another
+/// producer. The fourth such time stamp in succession sets the clock. Without time stamps the clock continues with its
+/// rate. The local time of a node has the resolution of its timer, or is CO_NODE_EXT.Microseconds. The loop may be late
+/// by up to a minute, and less than 2^32 ticks of the timer.
 ///
 /// Data of 1013h: a uint32_t; the stack writes it at each SYNC, 0 until the clock is set. The clock runs through NMT
 /// resets and ends with CONodeStop().
@@ -167,7 +169,8 @@ extern const CO_OBJ_TYPE COTTimeClock CO_NEEDS(USE_TIME);  ///< functions of CO_
 /// \retval CO_ERR_TMR_CREATE  the timer has no frequency
 CO_ERR COTimeHighResSet(struct CO_NODE_T* node, uint32_t us) CO_NEEDS(USE_TIME_HIGH_RES);
 
-/// Returns the clock in \a us, in µs. Corrections move it backwards by up to a quarter of a difference.
+/// Returns the clock in \a us, in µs. Time stamps may move it backwards: by up to a quarter of a difference, or to any
+/// value when a time stamp sets it.
 /// \retval CO_ERR_NONE         the clock is set
 /// \retval CO_ERR_BAD_ARG      an argument is null
 /// \retval CO_ERR_OBJ_NO_DATA  the clock was not set yet; \a us is 0

@@ -80,6 +80,7 @@ class Part {
   CO_COLUMN(bus_off, Function, nullptr)
   using Sync = void (*)(CO_NODE& node, uint8_t counter);
   CO_COLUMN(sync, Sync, nullptr)
+  CO_COLUMN(synced, Function, nullptr)  // its PDOs were processed
   CO_COLUMN(window, Function, nullptr)
   using NodeId = void (*)(CO_NODE& node, uint8_t id);
   CO_COLUMN(node_id, NodeId, nullptr)

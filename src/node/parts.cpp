@@ -164,7 +164,10 @@ void event::report_can(CO_NODE& node, CO_CAN_EVENT what) {
   parts::run<&Part::of_can>(node, what);
 }
 
-void event::sync(CO_NODE& node, uint8_t counter) { parts::run<&Part::of_sync>(node, counter); }
+void event::sync(CO_NODE& node, uint8_t counter) {
+  parts::run<&Part::of_sync>(node, counter);
+  parts::run<&Part::of_synced>(node);
+}
 
 void event::end_sync_window(CO_NODE& node) { parts::run<&Part::of_window>(node); }
 

@@ -186,6 +186,71 @@ TEST_CASE("1013h: CO_NODE_EXT.Microseconds replaces the timer") {
   CHECK(node.clock() == 3010005);
 }
 
+TEST_CASE("1013h: the tolerance is 250 us, two ticks and 1/1024 of the time since the last time stamp") {
+  for (const std::uint32_t rate : {1000000U, 100000U}) {
+    for (const bool has_counter : {false, true}) {
+      for (const bool is_behind : {false, true}) {
+        for (const bool fits : {false, true}) {
+          CAPTURE(rate);
+          CAPTURE(has_counter);
+          CAPTURE(is_behind);
+          Clocked node(255, rate);
+          if (has_counter) {
+            node.count_microseconds([](void* user) {
+              const auto* const fixture = static_cast<const Fixture*>(user);
+              return static_cast<std::uint32_t>(fixture->now() * 1000000 / fixture->node.Tmr.Freq);
+            });
+          }
+          node.sync_and_stamp(1000);
+          node.after(511700us);  // 512 ms after the SYNC
+          node.sync();
+          const std::uint32_t limit = 250 + 500 + (has_counter ? 0 : 2000000 / rate);
+          const std::uint32_t error = fits ? limit : limit + 1;
+          node.stamp(is_behind ? 513000 - error : 513000 + error);
+          CHECK(node.is_synchronised() == fits);
+          const std::uint32_t step = fits ? error / 4 : 0;
+          CHECK(node.clock() == (is_behind ? 513000 - step : 513000 + step));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("1013h: a time stamp for a SYNC before the clock was set by the application has no effect") {
+  Clocked node;
+  node.sync();
+  node.after(300us);
+  CHECK(node.set(1000000) == CO_ERR_NONE);
+  node.stamp(4000000);
+  CHECK(node.clock() == 1000000);
+  CHECK_FALSE(node.is_synchronised());
+}
+
+TEST_CASE("1013h: after a minute without time stamps one that is wrong by seconds does not fit") {
+  Clocked node;
+  node.sync_and_stamp(1000);
+  node.after(67s);
+  node.sync();
+  node.after(2s);
+  node.stamp(1000 + 67000300 + 3000000);
+  CHECK(node.clock() == 1000 + 300 + 69000000);
+  CHECK_FALSE(node.is_synchronised());
+}
+
+TEST_CASE("1013h: the rate is the average of several seconds") {
+  Clocked node;
+  largest_error(node, {100.0, 0}, 255, 10ms, 300);
+  const std::uint64_t begin = node.now();
+  const std::uint32_t before = node.clock();
+  largest_error(node, {500.0, static_cast<std::uint32_t>(0U - begin * 4 / 10000)}, 255, 10ms, 130);
+  const std::uint32_t now = node.clock();
+  node.after(10s);
+  const auto gained = static_cast<std::int32_t>(node.clock() - now - 10000000);
+  CHECK(gained > 1500);  // a quarter of the way from 100 to 500 ppm: 200 ppm
+  CHECK(gained < 2500);
+  CHECK(before != now);
+}
+
 TEST_CASE("1013h: a producer sends its clock at the last SYNC [Z2]") {
   Clocked node(255, 1000000, 0, CO_TTIME_HIGH_RES, true);
   node.after(5ms);
@@ -308,7 +373,10 @@ TEST_CASE("1013h: the clock runs through states and resets and ends with CONodeS
   node.after(10ms);
   CHECK(node.clock() == 11300);
   node.rx("000#0101");
-  node.stamp(1000);  // no SYNC since Stopped
+  node.sync();
+  node.rx("000#0201");
+  node.rx("000#0101");
+  node.stamp(11200);  // no SYNC since Stopped
   CHECK(node.clock() == 11300);
   for (const char* reset : {"000#8201", "000#8101"}) {
     node.rx(reset);

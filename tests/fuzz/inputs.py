@@ -14,12 +14,12 @@ def main():
         sys.exit(__doc__)
     command, target, *paths = sys.argv[1:]
     inputs = Path(__file__).parent / "inputs" / f"{target}.txt"
-    lines = set(inputs.read_text(encoding="ascii").splitlines())
+    lines = inputs.read_text(encoding="ascii").splitlines()
     if command == "add":
-        lines |= {Path(path).read_bytes().hex() for path in paths}
-        inputs.write_text("".join(f"{line}\n" for line in sorted(lines, key=lambda line: (len(line), line))))
+        all_lines = {*lines, *(Path(path).read_bytes().hex() for path in paths)}
+        inputs.write_text("".join(f"{line}\n" for line in sorted(all_lines, key=lambda line: (len(line), line))))
         return
-    for number, line in enumerate(sorted(lines), 1):
+    for number, line in enumerate(lines, 1):
         (Path(paths[0]) / f"{target}-{number}").write_bytes(bytes.fromhex(line))
 
 

@@ -12,7 +12,11 @@ int main(int number, char** arguments) {
   unsigned inputs = 0;
   for (std::string line; std::getline(file, line);) {
     std::vector<std::uint8_t> bytes;
-    for (std::size_t at = 0; at + 1 < line.size(); at += 2) {
+    if (line.size() % 2 != 0) {
+      std::printf("line %u is not hex\n", inputs + 1);
+      return 1;
+    }
+    for (std::size_t at = 0; at < line.size(); at += 2) {
       bytes.push_back(static_cast<std::uint8_t>(std::stoul(line.substr(at, 2), nullptr, 16)));
     }
     std::printf("line %u\n", ++inputs);

@@ -10,8 +10,8 @@
 ///     ext.Can = &Mcp251xfdCanDriver;  ext.CanCtx = &can;               // CO_NODE_EXT
 ///     void EXTI0_IRQHandler(void) { ...  COCanMcp251xfdInterrupt(&can); }  // falling edge of INT
 ///
-/// The board must initialise SPI (mode 0,0, at most 0.85 * SYSCLK / 2) and the pins before CONodeInit(). If the
-/// controller does not answer, Send returns -1.
+/// The board must initialise SPI (mode 0,0, at most 0.85 * SYSCLK / 2; with CO_CAN_MCP251XFD_PLL at most 1.7 MHz) and
+/// the pins before CONodeInit(). If the controller does not answer, Send returns -1.
 ///
 /// SPI. The loop and the interrupt use SPI without a lock: while a function of the driver uses it, the interrupt only
 /// leaves a note, and that function does the work of the interrupt at its end. Controllers on one SPI bus, also

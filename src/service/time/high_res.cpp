@@ -33,7 +33,10 @@ enum Flag : uint8_t { set = 1, measured = 2, fits = 4 };
 
 bool has(const CO_TIME_HIGH_RES& clock, Flag flag) { return (clock.Flags & flag) != 0; }
 
-uint32_t magnitude(int32_t value) { return static_cast<uint32_t>(value < 0 ? -value : value); }
+uint32_t magnitude(int32_t value) {
+  const auto bits = static_cast<uint32_t>(value);
+  return value < 0 ? 0U - bits : bits;
+}
 int32_t difference(uint32_t a, uint32_t b) { return static_cast<int32_t>(a - b); }
 
 // Returns the local time. Without a counter of the application it has the resolution of the timer.
@@ -48,10 +51,13 @@ uint32_t local_time(CO_NODE& node) {
   return clock.Seconds + fraction_of_second(ticks, node.Tmr.Freq, 6);
 }
 
-// Returns the clock at a local time.
+// Returns the clock at a local time. The rate applies to at most 134 s.
 uint32_t clock_at(const CO_TIME_HIGH_RES& clock, uint32_t local) {
+  constexpr int32_t most = INT32_MAX / fastest;
   const int32_t since = difference(local, clock.Base);
-  return clock.Time + static_cast<uint32_t>(since + since / rate_unit_high * clock.Rate / rate_unit_low);
+  int32_t parts = since / rate_unit_high;
+  parts = parts > most ? most : parts < -most ? -most : parts;
+  return clock.Time + static_cast<uint32_t>(since) + static_cast<uint32_t>(parts * clock.Rate / rate_unit_low);
 }
 
 void move_base(CO_TIME_HIGH_RES& clock, uint32_t local, uint32_t time) {
@@ -111,7 +117,7 @@ bool synchronise(const CO_NODE& node, CO_TIME_HIGH_RES& clock, uint32_t local, u
   const uint32_t expected = clock_at(clock, local);
   const int32_t error = difference(time, expected);
   const uint32_t resolution = node.Ext->Microseconds != nullptr ? 0 : second / node.Tmr.Freq;
-  const uint32_t allowed = tolerance + 2 * resolution + (local - clock.Base) / rate_unit_high;
+  const uint32_t allowed = tolerance + 2 * resolution + magnitude(difference(local, clock.Base)) / rate_unit_high;
   if (!has(clock, set)) {
     set_high_res(clock, local, time);
   } else if (magnitude(error) <= allowed) {
@@ -131,10 +137,9 @@ bool synchronise(const CO_NODE& node, CO_TIME_HIGH_RES& clock, uint32_t local, u
 // to the SYNC before. A second time stamp for the same SYNC is ignored.
 void apply_time_stamp(CO_NODE& node, CO_OBJ&, uint32_t value, uint32_t) {
   CO_TIME_HIGH_RES& clock = node.Time.HighRes;
-  const bool in_sync = clock.Frame == node.Count.Received;
-  const uint8_t later = in_sync ? 1 : 0;  // SYNCs after that of the time stamp
-  if (clock.Syncs > later && synchronise(node, clock, in_sync ? clock.Before : clock.Sync, value)) {
-    clock.Syncs = later;
+  const uint32_t local = clock.InSync != 0 ? clock.Before : clock.Sync;
+  if (clock.Syncs > clock.InSync && synchronise(node, clock, local, value)) {
+    clock.Syncs = clock.InSync;
   }
 }
 
@@ -149,11 +154,13 @@ void on_sync(CO_NODE& node, uint8_t) {
   }
   clock.Before = clock.Sync;
   clock.Sync = local_time(node);
-  clock.Frame = node.Count.Received;
+  clock.InSync = 1;
   clock.Syncs = static_cast<uint8_t>(clock.Syncs == 0 ? 1 : 2);
   uint32_t value = has(clock, set) ? clock_at(clock, clock.Sync) : 0;
   (void)integer::Number<sizeof value>::write(obj, &node, &value, sizeof value);
 }
+
+void on_synced(CO_NODE& node) { node.Time.HighRes.InSync = 0; }
 
 void stop_high_res(CO_NODE& node) {
   CO_TIME_HIGH_RES& clock = node.Time.HighRes;
@@ -174,6 +181,7 @@ CO_ERR COTimeHighResSet(CO_NODE* node, uint32_t us) {
     return node->Nmt.Mode == CO_INVALID ? CO_ERR_NMT_MODE : CO_ERR_TMR_CREATE;
   }
   co::time::set_high_res(node->Time.HighRes, co::time::local_time(*node), us);
+  node->Time.HighRes.Syncs = 0;
   return CO_ERR_NONE;
 }
 

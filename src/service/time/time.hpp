@@ -35,10 +35,13 @@ uint32_t take_seconds(CO_NODE& node, uint32_t& tick, uint32_t& seconds);
 [[nodiscard]] uint32_t fraction_of_second(uint32_t ticks, uint32_t freq, unsigned digits);
 
 #if USE_TIME_HIGH_RES
-// The high-resolution time stamp. on_sync: a SYNC was received or is sent. stop_high_res: SYNC is no longer allowed.
+// The high-resolution time stamp. on_sync: a SYNC was received or is sent; on_synced: its PDOs were processed.
+// stop_high_res: SYNC is no longer allowed.
 void on_sync(CO_NODE& node, uint8_t counter);
+void on_synced(CO_NODE& node);
 void stop_high_res(CO_NODE& node);
-inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).bus_off(flush).sync(on_sync);
+inline constexpr Part part =
+    Part().init(init).frames(on_frame).mode(on_mode).bus_off(flush).sync(on_sync).synced(on_synced);
 #else
 inline void stop_high_res(CO_NODE&) {}
 inline constexpr Part part = Part().init(init).frames(on_frame).mode(on_mode).bus_off(flush);

@@ -27,7 +27,7 @@ TEST_CASE("rules: each id is used once") {
 
 TEST_CASE("rules: docs/rules.md has the severities, faults and tables of the catalogue") {
   const bool is_current = test::bytes_of(LEXICAN_SOURCE_DIR "/tools/codict/docs/rules.md") == catalogue::reference();
-  CHECK_MESSAGE(is_current, "run: codict explain --all >tools/codict/docs/rules.md");
+  CHECK_MESSAGE(is_current, "build, then run: codict explain --all >tools/codict/docs/rules.md");
 }
 
 TEST_CASE("rules: the reference has a section and a table row for each rule") {

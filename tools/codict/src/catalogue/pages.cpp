@@ -25,8 +25,8 @@ Examples show only the relevant part of a description. The tests add it to a dev
 `whole` are complete files, and so are plans of networks, whose descriptions are in
 `tools/codict/tests/fixtures/network`. The wrong example breaks its rule, the right one does not.
 
-Severities, faults and tables are written by `codict explain --all`, from the definitions next to the checks
-(`rules.cpp`); the rest of this page is their only source.
+`codict explain --all` writes severities, faults and tables from `rules.cpp` next to the checks. All other text of the
+sections is written in this page.
 )";
 
 struct Chapter {
