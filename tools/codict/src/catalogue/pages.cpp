@@ -85,15 +85,11 @@ std::string table_of(const Chapter& chapter) {
 
 const std::vector<Page>& all_pages() {
   static const std::vector<Page> all = [] {
-    constexpr std::string_view begin = "\n### ";
     std::vector<Page> pages;
-    std::size_t at = rules_page.find(begin);
-    while (at != std::string_view::npos) {
-      const std::size_t next = rules_page.find(begin, at + 1);
-      const std::size_t end = std::min(rules_page.find("\n## ", at), next);
-      const std::string_view section = rules_page.substr(at + begin.size(), end - at - begin.size());
+    for (std::size_t n = 1; n < parts_of_page().size(); ++n) {
+      const std::string_view part = parts_of_page()[n];
+      const std::string_view section = part.substr(0, part.find("\n## "));  // a chapter may follow
       pages.push_back({section.substr(0, section.find('\n')), text_of(section)});
-      at = next;
     }
     return pages;
   }();

@@ -11,8 +11,9 @@
 
 namespace lexican::codict::catalogue {
 
-/// docs/rules.md, defined in rule_pages.cpp, which the build generates.
-extern const std::string_view rules_page;
+/// Returns docs/rules.md, divided at the titles of its rules: the text before the first rule, then a part for each
+/// rule, which begins with the id. Defined in rule_pages.cpp, which the build generates.
+const std::vector<std::string_view>& parts_of_page();
 
 /// A section of docs/rules.md.
 struct Page {
