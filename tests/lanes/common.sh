@@ -120,14 +120,14 @@ host_demo() {
 }
 
 # Runs a doctest program and counts its cases: run_doctest WHAT COMMAND... Two processes run at the same time, one with
-# the cases of SDO, one with all others, about half of the work each. All cases that the program lists must have run.
+# the cases of the files $one_half (SDO), one with all others, about half of the work each. All cases that the program lists must have run.
 run_doctest() {
-  local what=$1 log=$results/doctest-${1//[^a-zA-Z0-9_]/-} sdo='*/sdo_*' ran=0 listed
+  local what=$1 log=$results/doctest-${1//[^a-zA-Z0-9_]/-} half=${one_half:-*/sdo_*} ran=0 listed
   shift
   listed=$("$@" --no-colors --count 2>/dev/null | grep -oE '[0-9]+$')
   now_in "$log" "${listed:-0}"
-  (LEXICAN_PROGRESS=$log-1.log.progress "$@" --no-colors -sf="$sdo" >"$log-1.log" 2>&1) 2>>"$log-1.log" &
-  (LEXICAN_PROGRESS=$log-2.log.progress "$@" --no-colors -sfe="$sdo" >"$log-2.log" 2>&1) 2>>"$log-2.log"
+  (LEXICAN_PROGRESS=$log-1.log.progress "$@" --no-colors -sf="$half" >"$log-1.log" 2>&1) 2>>"$log-1.log" &
+  (LEXICAN_PROGRESS=$log-2.log.progress "$@" --no-colors -sfe="$half" >"$log-2.log" 2>&1) 2>>"$log-2.log"
   count_doctest "$what" $? "$log-2.log"
   wait $!
   count_doctest "$what" $? "$log-1.log"

@@ -178,7 +178,9 @@ SdoServerModel::Answer SdoServerModel::acknowledged(const SdoBytes& request) {
     return refuse(request, unknown_command);
   }
   if (ackseq > seq_) {
-    return abort(wrong_sequence);
+    // The client may repeat the acknowledge of the previous block while the controller refuses segments of this one.
+    const bool may_repeat = done_ != 0 && seq_ != blksize_ && !last_sent_;
+    return may_repeat ? Answer() : abort(wrong_sequence);
   }
   if (!is_blksize(request[2])) {
     return abort(wrong_blksize);
