@@ -5,11 +5,11 @@ packages=("${build_packages[@]}")
 
 # Runs the complete sweep of faults twice; the second build's server has blocks of 8 segments.
 lane() {
-  build_preset release || return
-  suffer blocks-of-127 "$build/release/tests/lexican_tests"
-  local small=-DCO_SDO_BUF_SEG=8
-  build_preset release sdo-faults -DCMAKE_C_FLAGS=$small -DCMAKE_CXX_FLAGS=$small || return
-  suffer blocks-of-8 "$build/sdo-faults/tests/lexican_tests" -tce='*65536*,*three blocks*'
+  local targets=(lexican_tests) small=-DCO_SDO_BUF_SEG=8
+  build_preset release sdo-faults -DLEXICAN_TEST_FILES=sdo_fault || return
+  suffer blocks-of-127 "$build/sdo-faults/tests/lexican_tests"
+  build_preset release sdo-faults-8 -DLEXICAN_TEST_FILES=sdo_fault -DCMAKE_C_FLAGS=$small -DCMAKE_CXX_FLAGS=$small || return
+  suffer blocks-of-8 "$build/sdo-faults-8/tests/lexican_tests" -tce='*65536*,*three blocks*'
 }
 
 suffer() {  # NAME PROGRAM [ARGUMENT...]
