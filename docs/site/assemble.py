@@ -36,11 +36,11 @@ def pages_of(root):
     for name in ("codict", "rules", "network"):
         if (root / f"tools/codict/docs/{name}.md").exists():
             pages[Path(f"tools/codict/docs/{name}.md")] = Path(f"{name}.md")
-    pages[Path("tests/conformance/RULES.md")] = Path("conformance.md")
+    pages[Path("tests/stack/conformance/RULES.md")] = Path("conformance.md")
     pages[Path("CONTRIBUTING.md")] = Path("contributing.md")
     pages[Path("tests/README.md")] = Path("tests.md")
-    for name in ("models", "target"):
-        pages[Path(f"tests/{name}/README.md")] = Path(f"{name}.md")
+    for place in ("drivers/models", "stack/target"):
+        pages[Path(f"tests/{place}/README.md")] = Path(f"{Path(place).name}.md")
     return pages
 
 

@@ -2,7 +2,7 @@
 /// \file co_can_template.h
 /// Template of a CAN driver: copy both files, rename everything called "template", and implement the parts marked with
 /// "Here". Unchanged, it compiles, but sends and receives no frames. docs/porting.md describes each step, and
-/// tests/driver_check tests the finished driver.
+/// tests/drivers/driver_check tests the finished driver.
 ///
 ///     CO_IF_DRV drivers = { &TemplateCanDriver, &TemplateTimerDriver, &TemplateNvmDriver };
 ///     spec.Drv = &drivers;

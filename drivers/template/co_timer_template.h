@@ -2,7 +2,7 @@
 /// \file co_timer_template.h
 /// Template of a timer driver: copy both files, rename everything called "template", and implement the parts marked
 /// with "Here". Unchanged, it compiles, but its time does not advance. docs/porting.md describes each step, and
-/// tests/driver_check tests the finished driver.
+/// tests/drivers/driver_check tests the finished driver.
 ///
 /// A timer driver works in one of two modes; this template uses the first one:
 /// - Delta mode: a hardware counter runs at CO_NODE_SPEC.TmrFreq (say 1 MHz), and its compare match interrupts exactly

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# Functions of the lanes that run tests/target: on boards of QEMU (demo/bare_metal/boards), and as programs of Linux for
+# Functions of the lanes that run tests/stack/target: on boards of QEMU (demo/bare_metal/boards), and as programs of Linux for
 # other CPUs. All of them run the same cases.
 board_packages=("${build_packages[@]}" "${arm_packages[@]}" qemu-system-arm gcc-riscv64-unknown-elf=riscv64-unknown-elf-gcc
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/picolibc.specs
@@ -56,16 +56,16 @@ quarters=(-part=1/4 -part=2/4 -part=3/4 -part=4/4)
 
 # Runs the cases with the small runner. With fewer processes the fragmented heap would exceed the board's memory.
 on_board() {  # CPU BOARD
-  suite_on "$1" emulate "$2" "$build/target-$1/tests/target/lexican_target_tests" -- "${quarters[@]}"
+  suite_on "$1" emulate "$2" "$build/target-$1/tests/stack/target/lexican_target_tests" -- "${quarters[@]}"
 }
 
 doctest_on_board() {  # BOARD: of doctest_tree
-  suite_on doctest emulate "$1" "$build/target-doctest/tests/target/lexican_target_tests" --no-colors -- \
+  suite_on doctest emulate "$1" "$build/target-doctest/tests/stack/target/lexican_target_tests" --no-colors -- \
     -sf='*/sdo_*' -sfe='*/sdo_*'
 }
 
 on_linux() {  # CPU EMULATOR
-  suite_on "$1" "$2" -L "/usr/$1-linux-gnu" "$build/target-$1/tests/target/lexican_target_tests" -- "${quarters[@]}"
+  suite_on "$1" "$2" -L "/usr/$1-linux-gnu" "$build/target-$1/tests/stack/target/lexican_target_tests" -- "${quarters[@]}"
 }
 
 # Adds up the summaries of the processes. A process reports the cases of the other shares as skipped.
@@ -93,7 +93,7 @@ compare_number() {  # WHAT CASES
 
 smoke_on() {  # CPU BOARD
   local log=$results/smoke-$2.log ok bad planned
-  emulate "$2" "$build/target-$1/tests/target/lexican_smoke_$2" >"$log" 2>&1
+  emulate "$2" "$build/target-$1/tests/stack/target/lexican_smoke_$2" >"$log" 2>&1
   local status=$?
   ok=$(grep -c '^ok ' "$log") bad=$(grep -c '^not ok ' "$log") planned=$(sed -n 's/^1\.\.//p' "$log")
   passed=$((passed + ok))
@@ -105,6 +105,6 @@ smoke_on() {  # CPU BOARD
 # Checks that an unaligned access ends the program by a fault, so that the tests detect such accesses.
 fault_on() {  # CPU BOARD
   local log=$results/fault-$1.log
-  emulate "$2" "$build/target-$1/tests/target/lexican_fault" >"$log" 2>&1
+  emulate "$2" "$build/target-$1/tests/stack/target/lexican_fault" >"$log" 2>&1
   if [ $? -eq 99 ]; then pass; else fail "an unaligned access on $1 is no fault" "$log"; fi
 }

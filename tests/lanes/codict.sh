@@ -71,8 +71,8 @@ codict_pages() {
   cp "$root/demo/clock/clock.xdd" "$copy/device.xdd"
   PATH=$copy/build/codict:$PATH run_pages "$copy"
   local page=docs/start/4-from-an-eds.md
-  run_tap python3 "$root/tests/porting/excerpts.py" "$root" $page
-  run_tap python3 "$root/tests/porting/excerpts.py" --some "$root" docs/use.md
-  check "$page shows the output of its program" python3 "$root/tests/system/page_output.py" "$root/$page" \
+  run_tap python3 "$root/tests/programs/porting/excerpts.py" "$root" $page
+  run_tap python3 "$root/tests/programs/porting/excerpts.py" --some "$root" docs/use.md
+  check "$page shows the output of its program" python3 "$root/tests/programs/commands/page_output.py" "$root/$page" \
     heater_simulation "${copy%/*}/heater/build/heater_simulation"
 }

@@ -94,16 +94,16 @@ sanitized_tree() {
     -DLEXICAN_TEST_OPTIONS="-O0;-g0;-fno-sanitize=undefined;$redzones"
 }
 
-# Builds codict as a project for another machine does (tests/package), once for all lanes, and sets $codict to its path.
+# Builds codict as a project for another machine does (tests/programs/package), once for all lanes, and sets $codict to its path.
 host_codict() {
   local targets=(lexican) log=$results/$lane_name-host-codict.log
-  codict=$build/release/tests/package/generate.cross/lexican_host_codict/codict
+  codict=$build/release/tests/programs/package/generate.cross/lexican_host_codict/codict
   build_preset release || return
   now "waits until another lane has built codict"
   if ! {
     flock 9
     now "building codict"
-    ctest --test-dir "$build/release/tests/package" --no-tests=error --output-on-failure -R '^package\.generate\.cross$'
+    ctest --test-dir "$build/release/tests/programs/package" --no-tests=error --output-on-failure -R '^package\.generate\.cross$'
   } 9>"$build/host-codict.lock" >"$log" 2>&1; then
     fail "build of codict" "$log"
     return 1
@@ -239,14 +239,14 @@ copy_sources() {
   find "$root" -mindepth 1 -maxdepth 1 ! -name build ! -name .git -exec cp -a -t "$copy" {} +
 }
 
-# Runs the commands of the pages that name this lane (tests/system/commands.py): run_pages [DIRECTORY], by default in a
+# Runs the commands of the pages that name this lane (tests/programs/commands/commands.py): run_pages [DIRECTORY], by default in a
 # copy of the sources.
 run_pages() {
   local commands=$results/$lane_name.commands
   [ -n "${1:-}" ] || copy_sources
-  python3 "$root/tests/system/commands.py" "$root" "$lane_name" >"$commands" && [ -s "$commands" ] ||
+  python3 "$root/tests/programs/commands/commands.py" "$root" "$lane_name" >"$commands" && [ -s "$commands" ] ||
     { fail "no page has commands for this lane"; return; }
-  run_tap env HOME="$results/pages-$lane_name/home" CFLAGS=-Werror CXXFLAGS=-Werror sh "$root/tests/system/commands.sh" \
+  run_tap env HOME="$results/pages-$lane_name/home" CFLAGS=-Werror CXXFLAGS=-Werror sh "$root/tests/programs/commands/commands.sh" \
     "$commands" "${1:-$copy}"
 }
 

@@ -9,9 +9,9 @@ lane() {
   build_tree coverage -DLEXICAN_ASSERT=OFF -DCMAKE_BUILD_TYPE= -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" || return
   find "$build/coverage" -name '*.gcda' -delete
   run_doctest coverage "$program"
-  run_ctest coverage-compat "$build/coverage/tests/compat"
+  run_ctest coverage-compat "$build/coverage/tests/stack/compat"
   local lines branches
-  read -r lines branches < <(grep -v '^#' "$root/tests/coverage_threshold")
+  read -r lines branches < <(grep -v '^#' "$root/tests/numbers/coverage_threshold")
   (cd "$root" && gcovr --root . --filter src/ --object-directory "$build/coverage" --exclude-unreachable-branches \
     --exclude-throw-branches --txt "$results/coverage-lines.txt" --html-details "$results/coverage.html" "$build/coverage" &&
     gcovr --root . --filter src/ --exclude-unreachable-branches --exclude-throw-branches --branches "$build/coverage" \

@@ -29,7 +29,7 @@ same_screen() {
 drawn() {
   rm -f "$results"/recorder.{csv,svg}
   demo recorder --output "$results/recorder.csv" &&
-    python3 "$root/tests/system/demo/picture.py" "$results/recorder.svg" "$results/recorder.png"
+    python3 "$root/tests/programs/demo/picture.py" "$results/recorder.svg" "$results/recorder.png"
 }
 
 # Waits minutes for a line of the node, for a busy machine, but not for a node that has ended: await REGEX
@@ -59,7 +59,7 @@ read_and_command() {  # PSEUDO-TERMINAL
 
 served() { with_node read_and_command --node-id 5; }
 
-# Selects the node by its address, for the reason given in tests/system/demo/serve.sh.
+# Selects the node by its address, for the reason given in tests/programs/demo/serve.sh.
 give_node_id() {  # PSEUDO-TERMINAL
   local master=(demo master --slcan "$1" --timeout 600000)
   "${master[@]}" lss --address 0 0xC10C 1 7 set-id 5 --store && await '705 +00 .*boot-up' &&

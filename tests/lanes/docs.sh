@@ -10,9 +10,9 @@ lane() {
   check "the site builds without a warning" "$root/docs/run" --build || return
   check "a port in use is refused in one line" port_in_use_is_refused
   run_tap python3 "$root/docs/site/check.py" "$site/html"
-  run_tap python3 "$root/tests/system/commands.py" "$root"
+  run_tap python3 "$root/tests/programs/commands/commands.py" "$root"
   check "found: a command that no lane runs" unrun_command
-  run_tap python3 "$root/tests/porting/excerpts.py" "$root" docs/index.md
+  run_tap python3 "$root/tests/programs/porting/excerpts.py" "$root" docs/index.md
   check "the first page has the numbers of docs/sizes.md and docs/speed.md" first_page_has_numbers
   check "found: a page that loads from elsewhere" planted '<script src="https://example.org/a.js"></script>'
   check "found: a link that leads nowhere" planted '<a href="../nowhere/">nowhere</a>'
@@ -41,7 +41,7 @@ lane() {
 # The build of the site fills the table of docs/index.md: no cell is empty, and one has the committed number.
 first_page_has_numbers() {
   local page=$build/site/html/index.html number
-  number=$(sed -n 's/^slave with the features of the others, flash of the stack alone | \([0-9]*\) .*/\1/p' "$root/tests/sizes/nodes.txt")
+  number=$(sed -n 's/^slave with the features of the others, flash of the stack alone | \([0-9]*\) .*/\1/p' "$root/tests/numbers/sizes/nodes.txt")
   ! grep '<td[^>]*></td>' "$page" && tr -d '\342\200\257' <"$page" | grep "<td[^>]*>$number</td>"
 }
 
@@ -109,10 +109,10 @@ undocumented() {  # LINE...
 unrun_command() {
   local pages=$results/planted-commands
   rm -rf "$pages"
-  mkdir -p "$pages/tests/system"
+  mkdir -p "$pages/tests/programs/commands"
   printf '%s\n' '```sh' 'make nothing' '```' >"$pages/page.md"
-  echo 'is run by hand | make something' >"$pages/tests/system/commands_not_run.txt"
-  ! python3 "$root/tests/system/commands.py" "$pages" >"$pages/said" &&
+  echo 'is run by hand | make something' >"$pages/tests/programs/commands/commands_not_run.txt"
+  ! python3 "$root/tests/programs/commands/commands.py" "$pages" >"$pages/said" &&
     grep '^not ok page.md: make nothing: no lane runs it' "$pages/said" &&
     grep '^not ok commands_not_run.txt: make something: no page has this command' "$pages/said"
 }

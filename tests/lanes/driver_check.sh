@@ -4,7 +4,7 @@ minutes=2
 packages=("${build_packages[@]}" "${arm_packages[@]}")
 
 lane() {
-  local targets=(driver_check_host) tree=$build/gcc/tests/driver_check
+  local targets=(driver_check_host) tree=$build/gcc/tests/drivers/driver_check
   sanitized_tree || return
   local files
   files=$(mktemp -d)
@@ -16,7 +16,7 @@ lane() {
 
 needs_only_string_h() {
   local object=$results/driver_check.o source needed
-  local sources=("$root"/tests/driver_check/driver_check*.c) objects=()
+  local sources=("$root"/tests/drivers/driver_check/driver_check*.c) objects=()
   for source in "${sources[@]}"; do
     objects+=("$results/$(basename "$source").o")
     arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -Os -std=c11 -Wall -Wextra -Wconversion -Wcast-align -Werror \
@@ -38,7 +38,7 @@ feed_answers() {
   printf '#!/bin/sh\necho "cangen $*" >>"%s"\n' "$work/said" >"$work/cangen"
   chmod +x "$work"/can*
   printf '(1.0) can0 %s\n' 122#A5C2 123#A5C2 1FFFFFFE#01 7FE# 702#R 7F0#10 7F1#0102030405060708 >"$work/heard"
-  PATH=$work:$PATH "$root/tests/driver_check/feed" can0 || return
+  PATH=$work:$PATH "$root/tests/drivers/driver_check/feed" can0 || return
   diff - "$work/said" <<'SAID' && rm -r "$work"
 cansend can0 123#A5C2
 cansend can0 1FFFFFFF#01

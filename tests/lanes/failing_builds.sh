@@ -6,5 +6,5 @@ packages=("${build_packages[@]}" clang "${arm_packages[@]}")
 lane() {
   local targets=(lexican)
   build_preset release || return
-  run_ctest failing_builds "$build/release/tests/failing_builds"
+  run_ctest failing_builds "$build/release/tests/stack/failing_builds"
 }

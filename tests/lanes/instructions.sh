@@ -28,8 +28,8 @@ count_operations() {
 }
 
 report_operations() {  # TABLE STACKS COLUMN...
-  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/bench/$1.txt" \
-    --page "$root/docs/speed.md" --table "$1" --title operation --percent 3 --stacks "$root/tests/bench/$2.txt" "${@:3}"
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/numbers/bench/$1.txt" \
+    --page "$root/docs/speed.md" --table "$1" --title operation --percent 3 --stacks "$root/tests/numbers/bench/$2.txt" "${@:3}"
 }
 
 programs=(lexican lexican_many_pdos lexican_od)
@@ -43,7 +43,7 @@ build_m0plus_programs() {
 count_on_arm() {  # TREE
   local program of=$results/instructions-$1
   for program in "${programs[@]}" "${compared_programs[@]}"; do
-    run_on_machine "$of-$program" "$build/$1/tests/bench/${program}_instructions" || return
+    run_on_machine "$of-$program" "$build/$1/tests/numbers/bench/${program}_instructions" || return
   done
   keep_rows_of stacks "$of-lexican_others_features"
   keep_rows_of classic_stacks "$of-lexican_classic"
@@ -51,7 +51,7 @@ count_on_arm() {  # TREE
 
 # Writes the rows that other stacks have to RESULT-STACKS.
 keep_rows_of() {  # STACKS RESULT
-  awk -F '\t| [|] ' 'NR == FNR { other[$1]; next } $1 in other' "$root/tests/bench/$1.txt" "$2" >"$2-$1"
+  awk -F '\t| [|] ' 'NR == FNR { other[$1]; next } $1 in other' "$root/tests/numbers/bench/$1.txt" "$2" >"$2-$1"
 }
 
 # Counts are the same on every host, as each instruction takes the same time on the clock of the emulated machine.
@@ -67,8 +67,8 @@ count_on_host() {
     of=$results/callgrind-$program
     rm -f "$of".[0-9]*
     run_counting "$of.reports" timeout 300 valgrind --quiet --tool=callgrind --collect-atstart=no \
-      --callgrind-out-file="$of" "$build/host-O2/tests/bench/${program}_instructions" &&
-      run_counting "$results/instructions-host-$program" python3 "$root/tests/bench/callgrind/read.py" "$of.reports" \
+      --callgrind-out-file="$of" "$build/host-O2/tests/numbers/bench/${program}_instructions" &&
+      run_counting "$results/instructions-host-$program" python3 "$root/tests/numbers/bench/callgrind/read.py" "$of.reports" \
         "$of".[0-9]* || return
   done
 }
@@ -86,11 +86,11 @@ run_counting() {  # RESULT COMMAND...
 count_worst_frame() {
   local of=$results/frame_bound target measured=()
   for target in node sdo_client sdo_server sweep; do
-    run_on_machine "$of-$target" "$build/m3/tests/frame_bound/${target}_frame_bound" || return
+    run_on_machine "$of-$target" "$build/m3/tests/numbers/frame_bound/${target}_frame_bound" || return
     measured+=("$of-$target")
   done
   worst_of "${measured[@]}" >"$of"
-  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/frame_bound/bounds.txt" \
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/numbers/frame_bound/bounds.txt" \
     --page "$root/docs/speed.md" --table frame_bound --title frame --remark "the worst" --percent 3 \
     --column "instructions" "arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion)" "$of"
 }

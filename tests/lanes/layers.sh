@@ -6,6 +6,6 @@ packages=(python3)
 lane() {
   run_tap python3 "$root/tests/lanes/layers.py" "$root"
   run_tap python3 "$root/tests/lanes/layers.py" --self-test
-  run_tap python3 "$root/tests/conformance/rules.py" "$root"
-  run_tap python3 "$root/tests/conformance/rules.py" --self-test
+  run_tap python3 "$root/tests/stack/conformance/rules.py" "$root"
+  run_tap python3 "$root/tests/stack/conformance/rules.py" --self-test
 }

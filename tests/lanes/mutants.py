@@ -108,9 +108,9 @@ class Tree:
         if self.run(self.build / "tests/lexican_tests", *CASES, preexec_fn=limit) != 0:
             found = re.search(r"^TEST CASE: +(.*)", self.said(), re.M)
             return found.group(1) if found else "ended early"
-        if not self.make("tests/compat/all"):
+        if not self.make("tests/stack/compat/all"):
             return "the build of the tests"
-        if self.run("ctest", "--test-dir", self.build / "tests/compat", "--stop-on-failure", "-E", "[.]lto[.]") != 0:
+        if self.run("ctest", "--test-dir", self.build / "tests/stack/compat", "--stop-on-failure", "-E", "[.]lto[.]") != 0:
             found = re.search(r"Test +#\d+: (\S+) .*(?:Failed|Exception|Timeout)", self.said())
             return found.group(1) if found else "ctest"
         return None

@@ -12,7 +12,7 @@ lane() {
     without=(-LE cross)
     build_preset release release -DLEXICAN_THIN_SWEEPS=ON || return
   fi
-  { flock 9 && run_ctest package "$build/release/tests/package" "${without[@]}"; } 9>"$build/host-codict.lock"
+  { flock 9 && run_ctest package "$build/release/tests/programs/package" "${without[@]}"; } 9>"$build/host-codict.lock"
   package_pages
 }
 
@@ -21,9 +21,9 @@ package_pages() {
   copy_sources
   mkdir "$copy/firmware" "${copy%/*}/bin"
   awk '/^```/ { inside = $0 == "```cmake" && !blocks++; next } inside' "$copy/docs/use.md" >"$copy/firmware/CMakeLists.txt"
-  cp "$root/tests/package/main.c" "$copy/firmware"
+  cp "$root/tests/programs/package/main.c" "$copy/firmware"
   ln -s /bin/false "${copy%/*}/bin/make"
-  PKG_CONFIG_PATH=$build/release/tests/package/prefix/lib/pkgconfig PATH=${copy%/*}/bin:$PATH run_pages "$copy"
+  PKG_CONFIG_PATH=$build/release/tests/programs/package/prefix/lib/pkgconfig PATH=${copy%/*}/bin:$PATH run_pages "$copy"
   check "the firmware of docs/use.md runs" timeout 10 "$copy/firmware/build/firmware"
   check "the first build is optimised" grep -x 'CMAKE_BUILD_TYPE:STRING=Release' "$copy/build/lexican/CMakeCache.txt"
 }

@@ -6,16 +6,16 @@ packages=(python3 gcc clang "${arm_packages[@]}")
 strict=(-std=c11 -pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wundef -Wstrict-prototypes -Werror)
 
 lane() {
-  run_tap python3 "$root/tests/porting/excerpts.py" "$root" docs/porting.md
-  run_tap python3 "$root/tests/porting/excerpts.py" --some "$root" docs/drivers/bxcan.md
-  run_tap python3 "$root/tests/porting/excerpts.py" --some "$root" docs/drivers/mcp2515.md
+  run_tap python3 "$root/tests/programs/porting/excerpts.py" "$root" docs/porting.md
+  run_tap python3 "$root/tests/programs/porting/excerpts.py" --some "$root" docs/drivers/bxcan.md
+  run_tap python3 "$root/tests/programs/porting/excerpts.py" --some "$root" docs/drivers/mcp2515.md
   local page
   for page in flash_pages eeprom_i2c eeprom_spi; do
-    run_tap python3 "$root/tests/porting/excerpts.py" --some "$root" "docs/drivers/$page.md"
+    run_tap python3 "$root/tests/programs/porting/excerpts.py" --some "$root" "docs/drivers/$page.md"
   done
-  run_tap python3 "$root/tests/porting/excerpts.py" --self-test
+  run_tap python3 "$root/tests/programs/porting/excerpts.py" --self-test
   local source
-  for source in $(sources tests/porting tests/driver_check/example drivers/template -name '*.c'); do
+  for source in $(sources tests/programs/porting tests/drivers/driver_check/example drivers/template -name '*.c'); do
     compiles "$source" gcc
     compiles "$source" clang
     compiles "$source" arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -Wcast-align
@@ -24,7 +24,7 @@ lane() {
   check "what the page names is there" names_what_exists
 }
 
-includes=(-I "$root/include" -I "$root/config" -I "$root/tests/driver_check" -I "$root/tests/driver_check/example")
+includes=(-I "$root/include" -I "$root/config" -I "$root/tests/drivers/driver_check" -I "$root/tests/drivers/driver_check/example")
 
 compiles() {  # SOURCE COMPILER...
   local source=$1
@@ -36,7 +36,7 @@ compiles() {  # SOURCE COMPILER...
 flash=14500 ram=2000
 
 links_for_arm() {
-  local program=$results/check_my_port sources=("$root"/tests/driver_check/driver_check*.c)
+  local program=$results/check_my_port sources=("$root"/tests/drivers/driver_check/driver_check*.c)
   printf '%s\n' '#include "example_board.h"' 'EXAMPLE_CAN ExampleCan; EXAMPLE_TIMER ExampleTimer;' \
     'bool ExampleEepromRead(uint32_t a, uint8_t* b, uint32_t n) { (void)a; (void)b; (void)n; return false; }' \
     'bool ExampleEepromWrite(uint32_t a, const uint8_t* b, uint32_t n) { (void)a; (void)b; (void)n; return false; }' \
@@ -46,7 +46,7 @@ links_for_arm() {
     'void CORingClear(CO_RING* r) { (void)r; }' \
     'uint16_t CheckMyPort(void (*print)(void*, const char*));' 'int main(void) { return CheckMyPort(0); }' >"$program.c"
   arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -Os -std=c11 -ffunction-sections -fdata-sections "${includes[@]}" "$program.c" \
-    "$root/tests/porting/check_my_port.c" "$root"/tests/driver_check/example/example_{can,timer,nvm}.c "${sources[@]}" \
+    "$root/tests/programs/porting/check_my_port.c" "$root"/tests/drivers/driver_check/example/example_{can,timer,nvm}.c "${sources[@]}" \
     -nostartfiles --specs=nano.specs --specs=nosys.specs -Wl,--gc-sections -Wl,-e,main -o "$program" || return
   arm-none-eabi-size "$program" | tee /dev/stderr |
     awk -v flash="$flash" -v ram="$ram" 'NR == 2 { exit !($1 + $2 <= flash && $2 + $3 <= ram) }'
@@ -58,7 +58,7 @@ names_what_exists() {
   for name in $(grep -oE '`(tests|docs|drivers)/[a-z0-9_/.]+' "$root/docs/porting.md" | tr -d '`' | sort -u); do
     [ -e "$root/$name" ] || missing+=" $name"
   done
-  for name in $(grep -ohE '"(can|timer|nvm)\.[a-z0-9]+"' "$root"/tests/driver_check/*.c | tr -d '"' | sort -u); do
+  for name in $(grep -ohE '"(can|timer|nvm)\.[a-z0-9]+"' "$root"/tests/drivers/driver_check/*.c | tr -d '"' | sort -u); do
     grep -q "^|.*\`$name\`.*|" "$root/docs/porting.md" || missing+=" $name"
   done
   [ -z "$missing" ] || { echo "missing:$missing"; return 1; }

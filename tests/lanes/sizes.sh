@@ -46,12 +46,12 @@ choose_cpu() {  # CPU
 }
 
 compile_c() {  # SOURCE OUTPUT FLAG...
-  "${compile[@]}" -Wall -Werror -std=c11 -I "$root/include" -I "$root/config" -c "$root/tests/sizes/$1" -o "$2" "${@:3}"
+  "${compile[@]}" -Wall -Werror -std=c11 -I "$root/include" -I "$root/config" -c "$root/tests/numbers/sizes/$1" -o "$2" "${@:3}"
 }
 
 preset_flag() {  # PRESET
   case $1 in
-    fair) echo "-DCO_CFG_PRESET=\"$root/tests/sizes/fair.h\"" ;;
+    fair) echo "-DCO_CFG_PRESET=\"$root/tests/numbers/sizes/fair.h\"" ;;
     *) echo "-DCO_CFG_PRESET=\"presets/$1.h\"" ;;
   esac
 }
@@ -66,7 +66,7 @@ size_of_node() {  # CPU PRESET
     link_node "sizes-$1/lexican_$2" "$program" "$everything" -fno-lto -Wl,-Map="$program.map" &&
     link_node "sizes-$1/lexican_$2" "$program" "$everything" -flto=2 -o "$program-lto" ||
     { fail "link of $2 for $1" "$of.log"; return 1; }
-  python3 "$root/tests/sizes/modules.py" "$program.map" >"$of-$1-$2-modules" || return
+  python3 "$root/tests/numbers/sizes/modules.py" "$program.map" >"$of-$1-$2-modules" || return
   size_lines "$(title_of "$2")" "$program" "$(awk '/^all modules/ { print $NF }' "$of-$1-$2-modules")" >>"$of-$1"
   size_lines "$(title_of "$2")" "$program-lto" >>"$of-$1-lto"
   [ "$2" != minimal ] || size_with_classic_drivers "$1" "$2"
@@ -107,7 +107,7 @@ size_with_classic_drivers() {  # CPU PRESET
     >"$of.log" 2>&1 && link_node "sizes-$1/lexican_$2" "$program" "" -fno-lto -Wl,-Map="$program.map" ||
     { fail "link of $2 with classic drivers for $1" "$of.log"; return 1; }
   printf '%s with classic drivers, flash of the stack alone\t%d\n' "$2" \
-    "$(python3 "$root/tests/sizes/modules.py" "$program.map" | awk '/^all modules/ { print $NF }')" >>"$of-$1"
+    "$(python3 "$root/tests/numbers/sizes/modules.py" "$program.map" | awk '/^all modules/ { print $NF }')" >>"$of-$1"
 }
 
 # Prints the objects of a library, in the order of their sources.
@@ -200,7 +200,7 @@ bytes_with() {  # FLAG...: of memory.c
 }
 
 report() {  # TABLE TITLE ARGUMENT...
-  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/sizes/$1.txt" \
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/numbers/sizes/$1.txt" \
     --page "$root/docs/sizes.md" --table "$1" --title "$2" "${@:3}"
 }
 
@@ -208,7 +208,7 @@ arm="arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion 2>/dev/null)"
 riscv="riscv64-unknown-elf-g++ $(riscv64-unknown-elf-g++ -dumpfullversion 2>/dev/null)"
 
 report_nodes() {
-  report nodes "program" --percent 1 --slack 16 --limits "at most" --stacks "$root/tests/sizes/stacks.txt" \
+  report nodes "program" --percent 1 --slack 16 --limits "at most" --stacks "$root/tests/numbers/sizes/stacks.txt" \
     --column "Cortex-M0+" "$arm" "$of-m0plus" --column "Cortex-M0+ with LTO" "$arm" "$of-m0plus-lto" \
     --column "Cortex-M4" "$arm" "$of-m4" --column "Cortex-M4 with LTO" "$arm" "$of-m4-lto" \
     --column "rv32imac" "$riscv" "$of-rv32" --column "rv32imac with LTO" "$riscv" "$of-rv32-lto"
@@ -239,14 +239,14 @@ stack_depths() {
   local of=$results/stack objects targets=(lexican lexican_full)
   build_m0plus -DLEXICAN_SIZES=ON || return
   rm -f "$of-depths" "$of-slave-depths"
-  link_library slave && run_tap depths_of "$of-slave" "$root/tests/stack/calls.txt" \
+  link_library slave && run_tap depths_of "$of-slave" "$root/tests/numbers/depth/calls.txt" \
     --only ", preset slave" CONodeProcess COTmrProcess
-  link_library full && run_tap depths_of "$of" "$root/tests/stack/calls.txt"
+  link_library full && run_tap depths_of "$of" "$root/tests/numbers/depth/calls.txt"
   [ -f "$of-depths" ] && [ -f "$of-slave-depths" ] || return
   cat "$of-slave-depths" >>"$of-depths"
   planted_calls "a call without a line" '^base/timer.cpp' "no line lists what timer.Func() may call"
   planted_calls "a function that calls itself" '^limit' "leads to a function that calls itself"
-  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/stack/depths.txt" \
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/numbers/depth/depths.txt" \
     --page "$root/docs/sizes.md" --table stack --title function --remark "by way of" --column bytes "$arm" "$of-depths"
 }
 
@@ -258,13 +258,13 @@ link_library() {  # PRESET
 }
 
 depths_of() {  # RESULT CALLS [OPTION...]
-  python3 -B "$root/tests/stack/depth.py" --objects "${objects[@]}" --sources "$root/src" --calls "$2" \
+  python3 -B "$root/tests/numbers/depth/depth.py" --objects "${objects[@]}" --sources "$root/src" --calls "$2" \
     --program "$results/stack.elf" --tools arm-none-eabi- --depths "$1-depths" --ways "$1-ways" "${@:3}"
 }
 
 # Checks that depth.py detects what calls.txt does not list.
 planted_calls() {  # WHAT LINES-LEFT-OUT WHY
-  grep -v "$2" "$root/tests/stack/calls.txt" >"$of-planted"
+  grep -v "$2" "$root/tests/numbers/depth/calls.txt" >"$of-planted"
   check "found: $1" calls_are_refused "$3"
 }
 
@@ -288,13 +288,13 @@ planted() {  # WHAT AWK-PROGRAM: changes what was measured
 }
 
 exceeds_limit() {
-  sed '/^dictionary entry |/s/.*/dictionary entry | 12 | 0 | 11/' "$root/tests/sizes/things.txt" >"$of-planted"
+  sed '/^dictionary entry |/s/.*/dictionary entry | 12 | 0 | 11/' "$root/tests/numbers/sizes/things.txt" >"$of-planted"
   ! python3 "$root/tests/lanes/numbers.py" --committed "$of-planted" --page "$root/docs/sizes.md" --table things \
     --title "one more" --limits "at most" --column flash "$arm" "$of-things-flash" --column RAM "$arm" "$of-things-ram" \
     >"$of-refused" && grep '^not ok dictionary entry, flash: 12, at most 11' "$of-refused"
 }
 
 is_refused() {  # PAGE FLASH
-  ! python3 "$root/tests/lanes/numbers.py" --committed "$root/tests/sizes/things.txt" --page "$1" --table things \
+  ! python3 "$root/tests/lanes/numbers.py" --committed "$root/tests/numbers/sizes/things.txt" --page "$1" --table things \
     --title "one more" --column flash "$arm" "$2" --column RAM "$arm" "$of-things-ram"
 }

@@ -7,7 +7,7 @@ packages=("${build_packages[@]}")
 lane() {
   local targets=(lexican_speed)
   build_preset release || return
-  local program=$build/release/tests/speed/lexican_speed page=$root/docs/speed.md
+  local program=$build/release/tests/numbers/speed/lexican_speed page=$root/docs/speed.md
   [ -z "${update_numbers:-}" ] || "$program" --update "$page" || fail "the table is not written"
   run_tap "$program" --check "$page"
 }

@@ -19,7 +19,7 @@ lane() {
     check "slave without optimisation: no function of a part that is left out" needs_only_allowed nm "$build/symbols-slave/src/liblexican.a"
   targets=(lexican_full)
   build_m0plus -DLEXICAN_SIZES=ON &&
-    library cortex-m0plus "$build/m0plus/tests/sizes/liblexican_full.a" arm-none-eabi-nm arm-none-eabi-objdump
+    library cortex-m0plus "$build/m0plus/tests/numbers/sizes/liblexican_full.a" arm-none-eabi-nm arm-none-eabi-objdump
   check "a C program is linked by gcc alone, without the C++ run time" links_as_c
   self_test
 }

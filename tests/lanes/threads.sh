@@ -9,7 +9,7 @@ lane() {
   build_tree threads -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang \
     -DCMAKE_CXX_COMPILER=clang++ -DLEXICAN_SANITIZE=thread || return
   run_doctest threads setarch -R "$build/threads/tests/lexican_thread_tests"
-  local demo=$build/threads/demo/two_threads rtos=$build/threads/tests/rtos
+  local demo=$build/threads/demo/two_threads rtos=$build/threads/tests/programs/rtos
   check "two threads use a node in turns" timeout 1200 setarch -R "$demo/lexican-demo-two-threads"
   check "the sanitizer finds races where turns are missing" finds_races "$demo/lexican-demo-without-node-lock"
   run_tap setarch -R "$rtos/rtos_example"
@@ -21,8 +21,8 @@ compiles_for_arm() {
   local source
   for source in node_task sdo_request; do
     arm-none-eabi-gcc -mcpu=cortex-m4 -mthumb -Os -std=c11 -Wall -Wextra -Wconversion -Wshadow -Wcast-align -Werror \
-      -DCO_CFG_PRESET='"presets/full.h"' -I "$root/include" -I "$root/config" -I "$root/tests/rtos/stub" \
-      -c "$root/tests/rtos/$source.c" -o "$results/$source.o" || return
+      -DCO_CFG_PRESET='"presets/full.h"' -I "$root/include" -I "$root/config" -I "$root/tests/programs/rtos/stub" \
+      -c "$root/tests/programs/rtos/$source.c" -o "$results/$source.o" || return
   done
 }
 

@@ -15,8 +15,8 @@ lane() {
     return
   }
   heater >"$results/heater.log" 2>&1 || { fail "build of demo/heater" "$results/heater.log"; return; }
-  python3 "$root/tests/system/commands.py" "$root" vcan >"$results/vcan.commands"  # in place of run_pages
-  run_tap "$root/tests/system/vcan/run" "$demo/linux_node/lexican-demo-node" "$demo/linux_master/lexican-demo-master" \
+  python3 "$root/tests/programs/commands/commands.py" "$root" vcan >"$results/vcan.commands"  # in place of run_pages
+  run_tap "$root/tests/drivers/vcan/run" "$demo/linux_node/lexican-demo-node" "$demo/linux_master/lexican-demo-master" \
     "$build/release/tests/lexican_bus_tests" "$check" "$build/heater/heater" "$results/vcan.commands"
 }
 
@@ -28,7 +28,7 @@ heater() {
 }
 
 driver_check() {  # PROGRAM
-  local from=$root/tests/driver_check includes=(-I "$root/include" -I "$root/config" -I "$root/tests/driver_check"
+  local from=$root/tests/drivers/driver_check includes=(-I "$root/include" -I "$root/config" -I "$root/tests/drivers/driver_check"
     -I "$root/drivers/can/socketcan") source objects=()
   for source in "$from"/driver_check*.c; do
     objects+=("$1-$(basename "$source").o")

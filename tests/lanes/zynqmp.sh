@@ -5,7 +5,7 @@ packages=(cmake ninja-build=ninja gcc-aarch64-linux-gnu=aarch64-linux-gnu-gcc g+
   qemu-system-arm=qemu-system-aarch64)
 
 lane() {
-  local source=tests/zynqmp
+  local source=tests/drivers/zynqmp
   build_tree zynqmp -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/aarch64-bare.cmake" || return
   run_on_machine lexican_zynqmp

@@ -19,7 +19,8 @@
 #include "lexican/detail/needs.h"
 
 /// \cond internal
-// X(name in the symbol, setting) for each setting of co_cfg.h; tests/compat/configuration.sh names one that is missing.
+// X(name in the symbol, setting) for each setting of co_cfg.h; tests/stack/compat/configuration.sh names one that is
+// missing.
 // clang-format off
 #define CO_CONFIGURATION(X) \
   X(SSDO, CO_SSDO_N) X(RPDO, CO_RPDO_N) X(TPDO, CO_TPDO_N) X(USECSDO, USE_CSDO) X(CSDO, CO_CSDO_N) X(SYNC, USE_SYNC) \

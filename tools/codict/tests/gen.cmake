@@ -2,7 +2,7 @@
 # Tests over the bus of nodes whose dictionaries codict generates during the build, in both languages. They are omitted
 # with the preset minimal, which is too small, and if codict is built without the stack and its demo.
 if(TARGET lexican_demo_dictionary AND NOT LEXICAN_PRESET STREQUAL "minimal")
-  add_executable(lexican_codict_node_tests ${lexican_root}/tests/support/main.cpp gen_node.cpp gen_node_case.cpp gen_safety_case.cpp od_conformance.cpp
+  add_executable(lexican_codict_node_tests ${lexican_root}/tests/stack/support/main.cpp gen_node.cpp gen_node_case.cpp gen_safety_case.cpp od_conformance.cpp
     od_conformance_case.cpp)
   foreach(language IN ITEMS C CXX)
     string(REPLACE CXX cpp name ${language})

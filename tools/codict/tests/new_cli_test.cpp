@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command codict new. tests/package/run.sh builds and runs a project.
+// The command codict new. tests/programs/package/run.sh builds and runs a project.
 #include <doctest/doctest.h>
 
 #include <filesystem>
