@@ -1,110 +1,83 @@
 # SPDX-License-Identifier: Apache-2.0
-# shellcheck shell=bash
-# Functions of the lanes that run tests/stack/target: on boards of QEMU (demo/bare_metal/boards), and as programs of Linux for
-# other CPUs. All of them run the same cases.
-board_packages=("${build_packages[@]}" "${arm_packages[@]}" qemu-system-arm gcc-riscv64-unknown-elf=riscv64-unknown-elf-gcc
-  picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/picolibc.specs
-  qemu-system-misc=qemu-system-riscv32)
-powerpc_packages=(g++-powerpc-linux-gnu=powerpc-linux-gnu-g++ qemu-user-static=qemu-ppc-static)
-s390x_packages=(g++-s390x-linux-gnu=s390x-linux-gnu-g++ qemu-user-static=qemu-s390x-static)
+about="nodes on an STM32, a ZynqMP and a SABRE Lite (its QEMU 11 is not in the distribution), with the driver check"
+minutes=3
+packages=("${build_packages[@]}" "${arm_packages[@]}" make python3 qemu-system-arm
+  gcc-aarch64-linux-gnu=aarch64-linux-gnu-gcc g++-aarch64-linux-gnu=aarch64-linux-gnu-g++ qemu-system-arm=qemu-system-aarch64)
 
-# Build the tests in build/target-CPU: arm_tree CPU CMAKE-ARGUMENT...
-arm_tree() { target_tree "$1" arm-none-eabi "$1" "-mno-unaligned-access" "${@:2}"; }
-riscv_tree() { target_tree "$1" riscv32-none-elf "$1" "-mstrict-align" "${@:2}"; }
-linux_tree() { target_tree "$1" "$1-linux-gnu" "$1" "" -DLEXICAN_TARGET_TESTS=ON "${@:2}"; }
-
-# Builds the tests in build/target-doctest: doctest_tree CPU CMAKE-ARGUMENT... Unaligned accesses are permitted, as the
-# streams of the C++ library use them.
-doctest_tree() { target_tree doctest arm-none-eabi "$1" "" -DLEXICAN_TARGET_RUNNER=doctest "${@:2}"; }
-
-target_tree() {  # NAME TOOLCHAIN CPU OPTIONS CMAKE-ARGUMENT...
-  build_tree "target-$1" -DLEXICAN_DEMO=OFF -DCMAKE_BUILD_TYPE=MinSizeRel \
-    -DCMAKE_C_FLAGS_MINSIZEREL="-Os -DNDEBUG $4" -DCMAKE_CXX_FLAGS_MINSIZEREL="-Os -DNDEBUG $4" -DLEXICAN_CPU="$3" \
-    -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/$2.cmake" "${@:5}"
+lane() {
+  run_pages
+  stm32
+  zynqmp
+  sabrelite
 }
 
-emulate() {  # BOARD PROGRAM [ARGUMENT...]
-  local emulator=(qemu-system-arm -M "$1") argument semihosting=enable=on,target=native,chardev=host,arg=tests
-  [ "$1" != virt ] || emulator=(qemu-system-riscv32 -M virt -bios none)
-  for argument in "${@:3}"; do
-    semihosting+=,arg=${argument//,/,,}
-  done
-  timeout 600 "${emulator[@]}" -display none -monitor none -serial none -chardev stdio,id=host \
-    -semihosting-config "$semihosting" -kernel "$2"
+# demo/stm32 compiles without a warning and fits the memories; demo/memory
+
+stm32() {
+  local source=demo/stm32
+  build_tree stm32-nucleo_f446re --toolchain "$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_PRESET=slave \
+    -DLEXICAN_CPU=cortex-m4 -DLEXICAN_BOARD=nucleo_f446re && pass &&
+    check "an oscillator that does not start: the LED blinks" blinks_without_oscillator "$build/stm32-nucleo_f446re/node.elf"
+  compile_memory flash_stm32 cortex-m4 flash_pages
+  compile_memory flash_stm32h7 cortex-m7 flash_pages
+  compile_memory eeprom_i2c_pins cortex-m0 flash_pages eeprom_i2c eeprom_spi
+  compile_memory eeprom_spi_pins cortex-m0 flash_pages eeprom_i2c eeprom_spi
+  compile_memory node cortex-m0
 }
 
-# Runs all cases in several processes at the same time, one for each share: suite_on WHAT COMMAND... -- SHARE...
-suite_on() {
-  local what=$1 log=$results/suite-$1.log command=() share process processes=() status=0
-  while shift && [ "$1" != -- ]; do
-    command+=("$1")
-  done
-  rm -f "$log".*
-  now "running the cases, $# processes"
-  for share in "${@:2}"; do
-    "${command[@]}" "$share" >"$log.${#processes[@]}" 2>&1 &
-    processes+=($!)
-  done
-  for process in "${processes[@]}"; do
-    wait "$process" || status=$?
-  done
-  cat "$log".* >"$log"
-  count_suite "$what" $status "$log"
+# Runs the firmware of nucleo_f446re on QEMU's STM32F405, which has no RCC: GPIOA_BSRR sets and resets PA5.
+blinks_without_oscillator() {  # FIRMWARE
+  local said=$results/stm32-blinks.log
+  qemu-system-arm -M netduinoplus2 -nographic -monitor none -serial none -kernel "$1" -d unimp -D "$said" &
+  local emulator=$! tries=600
+  until has_blinked "$said" || [ $((tries -= 1)) -eq 0 ]; do sleep 0.1; done
+  kill $emulator
+  has_blinked "$said"
 }
 
-quarters=(-part=1/4 -part=2/4 -part=3/4 -part=4/4)
+has_blinked() { grep -q 'GPIOA.*write.*0x018, value 0x00000020' "$1" && grep -q 'GPIOA.*write.*0x018, value 0x00200000' "$1"; }
 
-# Runs the cases with the small runner. With fewer processes the fragmented heap would exceed the board's memory.
-on_board() {  # CPU BOARD
-  suite_on "$1" emulate "$2" "$build/target-$1/tests/stack/target/lexican_target_tests" -- "${quarters[@]}"
+compile_memory() {  # SOURCE CPU DRIVER...
+  local driver drivers=()
+  for driver in "${@:3}"; do drivers+=(-I "$root/drivers/nvm/$driver"); done
+  check "demo/memory/$1.c is compiled for $2" arm-none-eabi-gcc -mcpu="$2" -mthumb -std=c11 -Os -pedantic -Wall -Wextra \
+    -Wconversion -Wsign-conversion -Wshadow -Wundef -Wstrict-prototypes -Wcast-align -Werror -I "$root/include" \
+    -I "$root/config" "${drivers[@]}" -c "$root/demo/memory/$1.c" -o /dev/null
 }
 
-doctest_on_board() {  # BOARD: of doctest_tree
-  suite_on doctest emulate "$1" "$build/target-doctest/tests/stack/target/lexican_target_tests" --no-colors -- \
-    -sf='*/sdo_*' -sfe='*/sdo_*'
+# A node and its master on the CAN controllers of an emulated ZynqMP
+
+zynqmp() {
+  local source=tests/drivers/zynqmp
+  build_tree zynqmp -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/aarch64-bare.cmake" || return
+  run_on_zynqmp lexican_zynqmp
+  run_on_zynqmp lexican_zynqmp_driver_check
 }
 
-on_linux() {  # CPU EMULATOR
-  suite_on "$1" "$2" -L "/usr/$1-linux-gnu" "$build/target-$1/tests/stack/target/lexican_target_tests" -- "${quarters[@]}"
+run_on_zynqmp() {  # PROGRAM
+  run_tap timeout 1200 qemu-system-aarch64 -M xlnx-zcu102,canbus0=bus,canbus1=bus -object can-bus,id=bus -m 256M \
+    -display none -audiodev none,id=none -monitor none -serial none -chardev stdio,id=host \
+    -semihosting-config enable=on,target=native,chardev=host -icount shift=4,sleep=off -kernel "$build/zynqmp/$1"
 }
 
-# Adds up the summaries of the processes. A process reports the cases of the other shares as skipped.
-count_suite() {  # WHAT STATUS LOG
-  local ran=0 good=0 all=0 line summary='cases: +([0-9]+) \| +([0-9]+) passed \| +([0-9]+) failed \| +([0-9]+) skipped'
-  while read -r line; do
-    [[ $line =~ $summary ]] || continue
-    ran=$((ran + BASH_REMATCH[1])) good=$((good + BASH_REMATCH[2])) all=$((BASH_REMATCH[1] + BASH_REMATCH[4]))
-  done < <(grep '^\[doctest\] test cases:' "$3")
-  passed=$((passed + good))
-  if [ "$ran" -ne "$good" ] || [ "$2" -ne 0 ]; then
-    fail "$1: $((ran - good)) cases, status $2" "$3"
-  elif [ "$ran" -ne "$all" ] || [ "$ran" -eq 0 ]; then
-    fail "$1: $ran of $all cases came back" "$3"
-  else
-    compare_number "$1" "$ran"
+# demo/sabrelite: a device and its master on the FlexCAN controllers
+
+# LEXICAN_QEMU_ARM names another QEMU: the controllers exist since QEMU 11, which the distribution does not have.
+sabrelite() {
+  local qemu=${LEXICAN_QEMU_ARM:-qemu-system-arm} version
+  version=$("$qemu" --version | grep -oE 'version [0-9]+' | cut -d' ' -f2)
+  if [ "${version:-0}" -lt 11 ]; then
+    skip "QEMU ${version:-} has no FlexCAN: set LEXICAN_QEMU_ARM to QEMU 11 or later"
+    return
   fi
+  run_on_sabrelite nodes
+  run_on_sabrelite driver_check
 }
 
-# Checks that each program of a lane runs as many cases as the first one.
-compare_number() {  # WHAT CASES
-  : "${cases_of_first:=$2}"
-  [ "$2" -eq "$cases_of_first" ] || fail "$1 has run $2 cases instead of $cases_of_first"
-}
-
-smoke_on() {  # CPU BOARD
-  local log=$results/smoke-$2.log ok bad planned
-  emulate "$2" "$build/target-$1/tests/stack/target/lexican_smoke_$2" >"$log" 2>&1
-  local status=$?
-  ok=$(grep -c '^ok ' "$log") bad=$(grep -c '^not ok ' "$log") planned=$(sed -n 's/^1\.\.//p' "$log")
-  passed=$((passed + ok))
-  if [ $status -ne 0 ] || [ "$bad" -ne 0 ] || [ "$ok" -ne "${planned:-0}" ]; then
-    fail "smoke test on $2: $bad cases, status $status" "$log"
-  fi
-}
-
-# Checks that an unaligned access ends the program by a fault, so that the tests detect such accesses.
-fault_on() {  # CPU BOARD
-  local log=$results/fault-$1.log
-  emulate "$2" "$build/target-$1/tests/stack/target/lexican_fault" >"$log" 2>&1
-  if [ $? -eq 99 ]; then pass; else fail "an unaligned access on $1 is no fault" "$log"; fi
+# Runs are the same on every host, as each instruction takes the same time on the clock of the emulated machine.
+run_on_sabrelite() {  # PROGRAM
+  run_tap timeout 1200 "$qemu" -M sabrelite,canbus0=bus,canbus1=bus -object can-bus,id=bus -m 256M -display none \
+    -monitor none -serial null -chardev stdio,id=host -semihosting-config enable=on,target=native,chardev=host \
+    -icount shift=4,sleep=off -kernel "$copy/build/sabrelite/$1.elf"
 }

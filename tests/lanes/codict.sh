@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the tool for device descriptions${full:+ with its program, clang with sanitizers}"
+about="the tool for device descriptions${full:+ with its program, clang with sanitizers; --all: also linked statically}"
 minutes=${full:+5}
 : "${minutes:=2}"
 . "$root/tests/fuzz/build.sh"
@@ -15,7 +15,14 @@ lane() {
     run_doctest codict "$build/codict-core/tests/lexican_codict_core_tests"
   else
     all_cases
+    [ -z "$all" ] || linked_statically
   fi
+}
+
+linked_statically() {
+  local source=tools/codict targets=(codict)
+  build_tree codict-static -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_STATIC=ON || return
+  run_tap "$root/tools/codict/tests/static_test.sh" "$build/codict-static/codict" "$root/tools/codict/tests/fixtures"
 }
 
 # Compiled by clang, which takes half the time of gcc; lane package compiles the program with gcc. Only those checks for

@@ -84,7 +84,7 @@ build_preset() {  # PRESET [NAME CMAKE-ARGUMENT...]
 
 # Builds "${targets[@]}" with gcc's sanitizers in build/gcc. The sweeps are thin: lane clang runs them completely. The tests'
 # own code has the redzones of the address sanitizer, so that the stack cannot leave memory of a test, but its own accesses
-# are not checked, which would take half the time of its compilation; lane sweeps checks them. Without fast paths: lane
+# are not checked, which would take half the time of its compilation; lane clang checks them with --all. Without fast paths: lane
 # clang has them.
 sanitized_tree() {
   local redzones="--param=asan-instrument-reads=0;--param=asan-instrument-writes=0;-fno-sanitize-address-use-after-scope"
@@ -268,3 +268,16 @@ tool_packages=(libcli11-dev=/usr/include/CLI/CLI.hpp libfmt-dev=/usr/include/fmt
 clang_packages=(clang libclang-rt-dev='/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-*.a')
 arm_packages=(gcc-arm-none-eabi=arm-none-eabi-g++ libnewlib-arm-none-eabi=/usr/lib/arm-none-eabi/newlib/libc.a
   libstdc++-arm-none-eabi-newlib=/usr/lib/arm-none-eabi/newlib/libstdc++.a)
+
+# Builds "${targets[@]}", by default all, in build/NAME with the preset slave: build_library NAME FLAGS CMAKE-ARGUMENT...
+build_library() {
+  build_tree "$1" -DLEXICAN_PRESET=slave -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF \
+    -DLEXICAN_BENCH=OFF -DLEXICAN_FRAME_BOUND=OFF -DLEXICAN_SIZES=OFF -DLEXICAN_SWITCHES= \
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="$2 -DNDEBUG" "${@:3}"
+}
+
+# The library for Cortex-M0+ at -Os, with the data that the stack depth is computed from; without link-time optimisation.
+build_m0plus() {  # CMAKE-ARGUMENT...
+  build_library m0plus "-Os -fstack-usage -fcallgraph-info=su,da" -DLEXICAN_CPU=cortex-m0plus \
+    -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/arm-none-eabi.cmake" "$@"
+}

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 about="instructions of operations on Cortex-M3, Cortex-M0+ (emulated) and the host, and of the worst frame; compared with docs/speed.md"
-. "$root/tests/lanes/library.sh"
 minutes=1
 packages=(cmake ninja-build=ninja g++ valgrind "${arm_packages[@]}" qemu-system-arm python3)
 

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-about="docs/porting.md: its code equals files that compile for this host and Cortex-M0, like the driver templates"
-minutes=1
-packages=(python3 gcc clang "${arm_packages[@]}")
+about="docs/porting.md: its code compiles for this host and Cortex-M0; its driver check, on the drivers of Lexican and on faulty ones"
+minutes=2
+packages=("${build_packages[@]}" python3 clang "${arm_packages[@]}")
+
+lane() {
+  porting_pages
+  driver_check
+}
 
 strict=(-std=c11 -pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wundef -Wstrict-prototypes -Werror)
 
-lane() {
+porting_pages() {
   run_tap python3 "$root/tests/programs/porting/excerpts.py" "$root" docs/porting.md
   run_tap python3 "$root/tests/programs/porting/excerpts.py" --some "$root" docs/drivers/bxcan.md
   run_tap python3 "$root/tests/programs/porting/excerpts.py" --some "$root" docs/drivers/mcp2515.md
@@ -62,4 +67,51 @@ names_what_exists() {
     grep -q "^|.*\`$name\`.*|" "$root/docs/porting.md" || missing+=" $name"
   done
   [ -z "$missing" ] || { echo "missing:$missing"; return 1; }
+}
+
+# The driver check, which must detect the faults of faulty drivers
+
+driver_check() {
+  local targets=(driver_check_host) tree=$build/gcc/tests/drivers/driver_check
+  sanitized_tree || return
+  local files
+  files=$(mktemp -d)
+  run_tap "$tree/driver_check_host" "$files"
+  rm -r "$files"
+  check "on Cortex-M0 it needs nothing of the C library but string.h" needs_only_string_h
+  check "the script feed answers as the check expects" feed_answers
+}
+
+needs_only_string_h() {
+  local object=$results/driver_check.o source needed
+  local sources=("$root"/tests/drivers/driver_check/driver_check*.c) objects=()
+  for source in "${sources[@]}"; do
+    objects+=("$results/$(basename "$source").o")
+    arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -Os -std=c11 -Wall -Wextra -Wconversion -Wcast-align -Werror \
+      -I "$root/include" -I "$root/config" -c "$source" -o "${objects[-1]}" || return
+  done
+  arm-none-eabi-ld -r -o "$object" "${objects[@]}" || return
+  arm-none-eabi-size "$object"
+  needed=$(arm-none-eabi-nm --undefined-only -f posix "$object" | cut -d ' ' -f 1 |
+    grep -vxE 'mem(cpy|set|cmp)|COTmrLock|COTmrUnlock|__aeabi_u?idiv(mod)?|__gnu_thumb1_case_[a-z]+')
+  [ -z "$needed" ] || { echo "needs $needed"; return 1; }
+}
+
+# Runs the script feed with replacements of can-utils that record their arguments.
+feed_answers() {
+  local work
+  work=$(mktemp -d)
+  printf '#!/bin/sh\ncat "%s"\n' "$work/heard" >"$work/candump"
+  printf '#!/bin/sh\necho "cansend $*" >>"%s"\n' "$work/said" >"$work/cansend"
+  printf '#!/bin/sh\necho "cangen $*" >>"%s"\n' "$work/said" >"$work/cangen"
+  chmod +x "$work"/can*
+  printf '(1.0) can0 %s\n' 122#A5C2 123#A5C2 1FFFFFFE#01 7FE# 702#R 7F0#10 7F1#0102030405060708 >"$work/heard"
+  PATH=$work:$PATH "$root/tests/drivers/driver_check/feed" can0 || return
+  diff - "$work/said" <<'SAID' && rm -r "$work"
+cansend can0 123#A5C2
+cansend can0 1FFFFFFF#01
+cansend can0 7FF#
+cansend can0 703#R
+cangen can0 -g 0 -p 1000 -I 7F1 -L 8 -D i -n 16
+SAID
 }

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 about="flash and RAM of nodes, modules and each additional object, stack depth of functions; compared with docs/sizes.md"
-. "$root/tests/lanes/library.sh"
 minutes=2
 packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}" gcc-riscv64-unknown-elf=riscv64-unknown-elf-g++
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/lib/libc.a)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// C interface of the host drivers. The lane headers and demo/first_node compile it as C11.
+// C interface of the host drivers. The lane library and demo/first_node compile it as C11.
 #include <doctest/doctest.h>
 
 #include <cstdio>

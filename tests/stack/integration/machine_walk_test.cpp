@@ -210,7 +210,7 @@ class Chance {
   std::mt19937 random_;
 };
 
-// Returns true in the large walk (tests/run --lane sdo_walk), which tries all first bytes instead of the usual ones.
+// Returns true in the large walk (tests/run --lane sdo), which tries all first bytes instead of the usual ones.
 bool is_large() { return std::getenv("LEXICAN_SDO_WALK") != nullptr; }
 
 Bytes walked_bytes() {

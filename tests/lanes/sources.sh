@@ -1,9 +1,42 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the test runner: it detects cases that did not run, programs that end early, files that are not built, and warnings"
+about="clang-format, licence lines, the language of comments, the include rules, the tags of rules, and the test runner, with self-tests"
 minutes=1
-packages=()
+packages=(clang-format-14 python3)
 
 lane() {
+  check "clang-format" formatted
+  check "licence lines" licensed
+  local script
+  for script in tests/lanes/language.py tests/lanes/layers.py tests/stack/conformance/rules.py; do
+    run_tap python3 "$root/$script" "$root"
+    run_tap python3 "$root/$script" --self-test
+  done
+  test_the_runner
+}
+
+# Generated files are excluded: they have the format of their generators.
+formatted() {
+  local files
+  mapfile -t files < <(sources include config src drivers tools demo tests -name '*.[ch]' -o -name '*.[ch]pp' |
+    grep -v /generated/)
+  [ ${#files[@]} -gt 0 ] || return
+  local unformatted
+  unformatted=$(cd "$root" && clang-format-14 --dry-run -Werror "${files[@]}" 2>&1 | grep -oE '^[^: ]+:[0-9]+:.*error' |
+    cut -d: -f1 | sort | uniq -c)
+  [ -z "$unformatted" ] || { printf 'places to be formatted:\n%s\n' "$unformatted"; return 1; }
+}
+
+licensed() {
+  local without
+  without=$(cd "$root" && sources include config src drivers tools demo tests cmake .ci \
+    -name '*.[ch]' -o -name '*.[ch]pp' -o -name '*.sh' -o -name '*.py' -o -name '*.cmake' -o -name CMakeLists.txt -o -name run |
+    grep -v /generated/ |
+    while read -r file; do head -n 2 "$file" | grep -q 'SPDX-License-Identifier: Apache-2.0' || echo "$file"; done)
+  [ -z "$without" ] || { printf 'no licence line:\n%s\n' "$without"; return 1; }
+}
+
+# The test runner detects cases that did not run, programs that end early, files that are not built, and warnings.
+test_the_runner() {
   counts doctest "4 0" 4 2
   counts doctest "4 1" 5 2
   counts doctest "0 1" 0 0
@@ -44,10 +77,10 @@ built_of() {  # FILE...
 }
 
 build_that_prints() {  # LINE
-  local line=$1 build=$results/runner-build
-  mkdir -p "$build/runner"
+  local line=$1 build=$results/sources-build
+  mkdir -p "$build/planted"
   cmake() { echo "$line"; }
-  build_tree runner
+  build_tree planted
 }
 
 skips_with_suite() {
@@ -67,10 +100,10 @@ skipping_program() {
 
 fails_empty_lane() {
   (
-    passed=0 failed=0 lane_name=runner-inner
+    passed=0 failed=0 lane_name=sources-inner
     lane() { :; }
     measure_lane
-  ) && test "$(cat "$results/runner-inner.count")" = "0 1 0"
+  ) && test "$(cat "$results/sources-inner.count")" = "0 1 0"
 }
 
 # Runs a program of one of the forms below in a subshell, and checks the numbers of passed and failed cases.
@@ -78,9 +111,9 @@ counts() {  # KIND "PASSED FAILED" ARGUMENT...
   local kind=$1 expected=$2 counted
   shift 2
   counted=$(
-    passed=0 failed=0 lane_name=runner-inner
+    passed=0 failed=0 lane_name=sources-inner
     now_in() { :; }
-    "run_$kind" ${kind/tap/} "${kind}_program" "$@" >"$results/runner-inner.log"
+    "run_$kind" ${kind/tap/} "${kind}_program" "$@" >"$results/sources-inner.log"
     echo "$passed $failed"
   )
   check "$kind $*: $counted (passed, failed) instead of $expected" test "$counted" = "$expected"
