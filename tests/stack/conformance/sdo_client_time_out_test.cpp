@@ -316,6 +316,287 @@ TEST_CASE("SDO client: a lost acknowledge of the last segment is repeated after 
 
 #endif
 
+// SDO client: transfers while the controller refuses frames. [T12] [D20]
+
+TEST_CASE("SDO client: a request with a full transmit queue is refused with CO_ERR_IF_CAN_SEND without callback") {
+  SdoClient node(Setup().only_small().tx_queue(1));
+  node.can.refuse_all();
+  CO_IF_FRM urgent = frame("091#01");
+  node.call([&] { REQUIRE(COIfCanSend(&node->If, &urgent) == sizeof(CO_IF_FRM)); });
+  for (const std::uint32_t size : {4U, 28U, 1000U}) {
+    CAPTURE(size);
+    CHECK(node.try_upload(0x2000, 5, size, 100) == CO_ERR_IF_CAN_SEND);
+    CHECK(node.try_download(0x2000, 5, counted(size), 100) == CO_ERR_IF_CAN_SEND);
+    CHECK(node.csdo()->State == CO_CSDO_STATE_IDLE);
+    CHECK(node.armed_timers() == 0);
+  }
+  node.after(1000ms);
+  CHECK(node.ends.empty());
+  node.can.accept_all();
+  node.loop();
+  node.tx("091#01");
+  check_asks(node);
+}
+
+TEST_CASE("SDO client: a request that the controller refuses is sent later") {
+  SdoClient node;
+  node.can.refuse_next(3);
+  node.start_upload(0x2000, 5, 4);
+  node.silent();
+  node.goes_on();
+  for (int i = 0; i < 4; ++i) node.loop();
+  node.tx("605#4000200500000000");
+  node.rx("585#4F00200511000000");
+  node.has_read({0x11});
+}
+
+#if CO_CSDO_BLOCK > 0
+
+// Runs a transfer while the controller refuses \a times frames of the client, from number \a refuse_at. Returns the
+// client's frames.
+std::vector<std::string> session(bool upload, std::size_t length, std::uint64_t refuse_at, std::uint64_t times,
+                                 std::int16_t with) {
+  SdoClient node;
+  std::vector<std::string> all;
+  SdoPeer peer(upload ? counted(length) : Bytes{});
+  if (times > 0) {
+    node.can.refuse_nth(refuse_at, with);
+    node.can.refuse_to += times - 1;
+  }
+  if (upload) {
+    node.start_upload(0x2000, 5, static_cast<std::uint32_t>(std::max<std::size_t>(length, 29)));
+  } else {
+    node.start_download(0x2000, 5, counted(length));
+  }
+  for (unsigned rounds = 0; rounds < 50 && node.ends.empty(); ++rounds) {
+    for (int i = 0; i < 4; ++i) node.loop();
+    std::deque<Sent> sent;
+    sent.swap(node.can.sent);
+    for (const Sent& one : sent) {
+      all.push_back(notation(one.frm));
+      for (const CO_IF_FRM& answer : peer.answers_to(one.frm)) node.can.to_node.push_back(answer);
+    }
+  }
+  for (int i = 0; i < 4; ++i) node.loop();
+  for (const std::string& line : node.frames()) all.push_back(line);
+  CHECK(peer.fault == "");
+  node.ended(0);
+  if (!upload) CHECK((peer.object == counted(length)));
+  CHECK(node.counters().Dropped == 0);
+  return all;
+}
+
+TEST_CASE("SDO client: whichever frames the controller refuses the transfer is complete [T12]") {
+  for (const bool upload : {true, false}) {
+    const std::size_t length = 100;
+    const std::vector<std::string> expected = session(upload, length, 0, 0, 0);
+    CHECK(expected.size() == (upload ? 4 : 17));
+    for (const std::int16_t refusal : {std::int16_t{0}, std::int16_t{-1}}) {
+      for (const std::uint64_t times : {1U, 2U, 3U}) {
+        for (std::uint64_t n = 1; n <= expected.size(); ++n) {
+          CAPTURE(upload);
+          CAPTURE(refusal);
+          CAPTURE(times);
+          CAPTURE(n);
+          CHECK(session(upload, length, n, times, refusal) == expected);
+        }
+      }
+    }
+  }
+}
+
+// Starts a block download of 40 bytes, and lets the controller refuse the third segment and later frames.
+void pause(SdoClient& node) {
+  node.start_download(0x2000, 5, counted(40));
+  node.tx("605#C600200528000000");
+  node.can.refuse_nth(3);
+  node.can.refuse_to += 1000000;
+  node.rx("585#A40020057F000000");
+  node.tx({"605#0101020304050607", "605#0208090A0B0C0D0E"});
+}
+
+TEST_CASE("SDO client: a block download pauses while the controller refuses frames, and resumes [D20]") {
+  SdoClient node;
+  pause(node);
+  for (int i = 0; i < 10; ++i) node.loop();
+  node.silent();
+  node.goes_on();
+  CHECK(CONodeNextDeadline(&node.node) <= 1);
+  node.can.accept_all();
+  for (int i = 0; i < 10; ++i) node.loop();
+  node.tx({"605#030F101112131415", "605#04161718191A1B1C", "605#051D1E1F20212223", "605#8624252627280000"});
+  node.rx("585#A2067F0000000000");
+  node.tx("605#C9C38B0000000000");
+  node.rx("585#A100000000000000");
+  node.has_written();
+}
+
+TEST_CASE("SDO client: a paused block download resumes in a loop that sleeps until CONodeNextDeadline [D20]") {
+  SdoClient node(Setup().only_small().wake(Wake::deadline));
+  pause(node);
+  node.after(5ms);
+  node.silent();
+  node.can.accept_all();
+  node.after(5ms);
+  node.tx({"605#030F101112131415", "605#04161718191A1B1C", "605#051D1E1F20212223", "605#8624252627280000"});
+  node.rx("585#A2067F0000000000");
+  node.tx("605#C9C38B0000000000");
+  node.rx("585#A100000000000000");
+  node.has_written();
+}
+
+TEST_CASE("SDO client: a paused block download does not fill the transmit queue and does not delay other frames [Q4]") {
+  SdoClient node(Setup().only_small().tx_queue(4));
+  pause(node);
+  CHECK(node->TxQueue.Num <= 1);
+  node.rx("601#4000100000000000");
+  node.can.accept_all();
+  for (int i = 0; i < 10; ++i) node.loop();
+  const std::vector<std::string> sent = node.frames();
+  CHECK(std::count(sent.begin(), sent.end(), "581#4300100091010F00") == 1);
+  CHECK(sent.size() == 5);
+  CHECK(node.counters().Dropped == 0);
+  node.rx("585#A2067F0000000000");
+  node.tx("605#C9C38B0000000000");
+  node.rx("585#A100000000000000");
+  node.has_written();
+}
+
+TEST_CASE("SDO client: with a controller that accepts one frame at a time all segments are sent in order [D20]") {
+  SdoClient node;
+  pause(node);
+  std::vector<std::string> sent;
+  for (int i = 0; i < 20; ++i) {
+    node.can.accept_all();
+    node.can.refuse_nth(2);
+    node.can.refuse_to += 1000000;
+    node.call([&] { CONodeProcess(&node.node); });
+    for (const std::string& line : node.frames()) sent.push_back(line);
+  }
+  node.can.accept_all();
+  CHECK(sent == std::vector<std::string>{"605#030F101112131415", "605#04161718191A1B1C", "605#051D1E1F20212223",
+                                         "605#8624252627280000"});
+  node.rx("585#A2067F0000000000");
+  node.tx("605#C9C38B0000000000");
+  node.rx("585#A100000000000000");
+  node.has_written();
+}
+
+TEST_CASE("SDO client: a paused block download that is cancelled sends no segment after the abort") {
+  SdoClient node;
+  pause(node);
+  node.call([&] { CHECK(COCSdoCancel(node.csdo()) == CO_ERR_NONE); });
+  node.ended(CO_SDO_ERR_TOS_LOCAL);
+  node.can.accept_all();
+  for (int i = 0; i < 10; ++i) node.loop();
+  const std::vector<std::string> sent = node.frames();
+  REQUIRE_FALSE(sent.empty());
+  CHECK(sent.back() == "605#8000200521000008");
+  CHECK(sent.size() <= 2);
+  check_asks(node);
+}
+
+TEST_CASE("SDO client: an abort of the server ends a paused block download without further segments") {
+  SdoClient node;
+  pause(node);
+  node.rx("585#8000200505000405");
+  node.ended(CO_SDO_ERR_MEM);
+  node.can.accept_all();
+  for (int i = 0; i < 10; ++i) node.loop();
+  CHECK(node.frames().size() <= 1);  // a frame that was in the transmit queue
+  check_asks(node);
+}
+
+TEST_CASE("SDO client: a repeated answer to the initiate while a block is being sent is ignored") {
+  SdoClient node;
+  pause(node);
+  node.rx("585#A400200504000000");
+  node.silent();
+  node.goes_on();
+  node.can.accept_all();
+  for (int i = 0; i < 10; ++i) node.loop();
+  node.tx({"605#030F101112131415", "605#04161718191A1B1C", "605#051D1E1F20212223", "605#8624252627280000"});
+  node.rx("585#A2067F0000000000");
+  node.tx("605#C9C38B0000000000");
+  node.rx("585#A100000000000000");
+  node.has_written();
+}
+
+TEST_CASE("SDO client: a repeated acknowledge of the previous block while a block is being sent is ignored") {
+  SdoClient node;
+  node.start_download(0x2000, 5, counted(40));
+  node.tx("605#C600200528000000");
+  node.rx("585#A400200504000000");
+  node.tx({"605#0101020304050607", "605#0208090A0B0C0D0E", "605#030F101112131415", "605#04161718191A1B1C"});
+  node.can.refuse_all();
+  node.rx("585#A204040000000000");
+  node.rx("585#A204040000000000");
+  node.silent();
+  node.goes_on();
+  node.can.accept_all();
+  for (int i = 0; i < 10; ++i) node.loop();
+  node.tx({"605#011D1E1F20212223", "605#8224252627280000"});
+  node.rx("585#A202040000000000");
+  node.tx("605#C9C38B0000000000");
+  node.rx("585#A100000000000000");
+  node.has_written();
+}
+
+TEST_CASE("SDO client: NMT stop ends a paused block download and withdraws queued segments [N8]") {
+  SdoClient node;
+  pause(node);
+  node.rx("000#0201");
+  node.ended(CO_SDO_ERR_TOS_STATE);
+  node.can.accept_all();
+  for (int i = 0; i < 10; ++i) node.loop();
+  node.silent();
+}
+
+#endif
+
+TEST_CASE("SDO client: NMT stop withdraws a request that is queued for the controller [N8]") {
+  SdoClient node;
+  node.can.refuse_all();
+  node.start_upload(0x2000, 5, 4);
+  node.rx("000#0201");
+  node.ended(CO_SDO_ERR_TOS_STATE);
+  node.can.accept_all();
+  node.loop();
+  node.silent();
+}
+
+TEST_CASE("SDO client: a time-out ends the transfer also with a full transmit queue") {
+  SdoClient node(Setup().only_small().tx_queue(1));
+  node.can.refuse_all();
+  node.start_upload(0x2000, 5, 4, 100);
+  node.after(99ms);
+  node.goes_on();
+  node.after(1ms);
+  node.ended(CO_SDO_ERR_TIMEOUT);
+  node.can.accept_all();
+  node.loop();
+  node.frames();
+  check_asks(node);
+}
+
+TEST_CASE(
+    "SDO client: a segment request refused by a full transmit queue ends the transfer, at the latest by time-out") {
+  SdoClient node(Setup().only_small().tx_queue(1));
+  node.start_upload(0x2000, 5, 28, 100);
+  node.tx("605#4000200500000000");
+  node.can.refuse_all();
+  CO_IF_FRM urgent = frame("091#01");
+  node.call([&] { REQUIRE(COIfCanSend(&node->If, &urgent) == sizeof(CO_IF_FRM)); });
+  node.rx("585#4100200508000000");
+  node.can.accept_all();
+  node.after(100ms);
+  node.frames();
+  REQUIRE(node.ends.size() == 1);
+  CHECK(node.ends.front().code != 0);
+  node.ends.clear();
+  check_asks(node);
+}
+
 }  // namespace
 
 #endif

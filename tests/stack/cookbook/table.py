@@ -61,7 +61,7 @@ def compared(objects, rows):
 
 def text_of(root, test):
     """Returns the text of a test, an empty one if it does not exist."""
-    file = root / "tests" / (f"cookbook/{test}" if test.endswith(".c") else f"conformance/{test}.cpp")
+    file = root / "tests/stack" / (f"cookbook/{test}" if test.endswith(".c") else f"conformance/{test}.cpp")
     return file.read_text(encoding="utf-8") if file.exists() else ""
 
 
