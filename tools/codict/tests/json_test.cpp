@@ -230,6 +230,17 @@ TEST_CASE("JSON: objects are sorted, and a duplicate index is reported") {
   CHECK(reading.device().find(0x2001)->find(1) != nullptr);
 }
 
+TEST_CASE("JSON: an object or sub-object whose number does not fit is sorted as number 0, which it gets") {
+  const JsonReading reading(R"({"schema": "codict-device-1", "devices": [{"format": "eds", "objects": [
+{"index": 8192, "subs": [{"sub_index": 1}, {"sub_index": 256}]},
+{"index": 70000},
+{"index": -1}]}]})");
+  CHECK(reading.found() == "2:58 json-range\n3:11 json-range\n4:1 json-duplicate\n");
+  REQUIRE(reading.device().objects.size() == 2);
+  CHECK(reading.device().objects[0].index == 0);
+  CHECK(reading.device().find(0x2000)->subs.at(0).sub_index == 0);
+}
+
 TEST_CASE("JSON: a value without text gets one, and a text without value is parsed") {
   const JsonReading values(with(R"("object_code": "var", "data_type": 6, "access": "rw", "default_value": 500)"));
   CHECK(values.found().empty());

@@ -89,9 +89,6 @@ std::optional<PdoMapping> meaning_of(const Field<PdoMapping>& field, Format form
                         : std::optional(PdoMapping::optional);
 }
 
-template <typename T>
-constexpr bool is_sorted = std::is_same_v<T, Object> || std::is_same_v<T, Sub>;
-
 class Reader {
  public:
   static constexpr bool is_reading = true;
@@ -501,17 +498,20 @@ class Reader {
     for (const Node& child : node.children) {
       elements.push_back(&child);
     }
-    if constexpr (is_sorted<T>) {
-      sort(elements, std::is_same_v<T, Object> ? "index" : "sub_index");
+    if constexpr (std::is_same_v<T, Object>) {
+      sort(elements, "index", 16);
+    } else if constexpr (std::is_same_v<T, Sub>) {
+      sort(elements, "sub_index", 8);
     }
     return elements;
   }
 
-  // Sorts elements by a number that identifies them. Reports and removes duplicates.
-  void sort(std::vector<const Node*>& elements, std::string_view name) {
-    const auto key = [name](const Node* element) {
+  // Sorts elements by a number that identifies them, which is 0 if it is missing or does not fit. Reports and removes
+  // duplicates.
+  void sort(std::vector<const Node*>& elements, std::string_view name, unsigned bits) {
+    const auto key = [name, bits](const Node* element) {
       const Node* const number = element->find(name);
-      return number != nullptr ? number->integer.bits() : 0;
+      return number != nullptr && fits_unsigned(number->integer, bits) ? number->integer.magnitude : 0;
     };
     std::stable_sort(elements.begin(), elements.end(), [key](const Node* a, const Node* b) { return key(a) < key(b); });
     const auto end = std::unique(elements.begin(), elements.end(), [key, name, this](const Node* a, const Node* b) {
