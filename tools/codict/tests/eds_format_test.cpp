@@ -152,7 +152,16 @@ TEST_CASE("EDS normal form: a comment that suppresses a rule for one section is 
         "[2000]\nParameterName=a\n");
   CHECK(formatted(once) == once);
   CHECK(formatted("; codict: ignore od-limit\n[2000]\nParameterName=a\n; codict: ignored\n[FileInfo]\n") ==
-        "; codict: ignore od-limit\n\n; codict: ignored\n[FileInfo]\n\n[2000]\nParameterName=a\n");
+        "; codict: ignore od-limit\n; codict: ignored\n\n[FileInfo]\n\n[2000]\nParameterName=a\n");
+}
+
+TEST_CASE("EDS normal form: comments of the section that becomes the first one are comments of the file") {
+  const std::string once = formatted("[Mine]\nx=1\n; The object\n[2000]\nParameterName=a\n");
+  CHECK(once == "; The object\n\n[2000]\nParameterName=a\n\n[Mine]\nx=1\n");
+  CHECK(formatted(once) == once);
+  const std::string both = formatted("; Top\n[2000]\nParameterName=a\n; File\n[FileInfo]\nFileName=x\n");
+  CHECK(both == "; Top\n; File\n\n[FileInfo]\nFileName=x\n\n[2000]\nParameterName=a\n");
+  CHECK(formatted(both) == both);
 }
 
 TEST_CASE("EDS normal form: invalid numbers are kept") {

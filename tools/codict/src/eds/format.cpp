@@ -162,6 +162,10 @@ class Formatter {
         std::find_if_not(blocks.begin(), blocks.end(), [this](const Block& block) { return has_suppression(block); });
     if (plain != blocks.end()) {
       std::rotate(blocks.begin(), plain, plain + 1);
+      // The next reader cannot distinguish its comments from those of the file.
+      std::vector<std::string_view>& comments = blocks.front().before;
+      top.insert(top.end(), comments.begin(), comments.end());
+      comments.clear();
     }
     text_ = document_.raw({0, static_cast<std::uint32_t>(mark_size(source().bytes()))});
     paragraph(top);
