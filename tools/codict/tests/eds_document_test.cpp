@@ -10,6 +10,7 @@
 
 #include "eds/document.hpp"
 #include "eds/read.hpp"
+#include "eds/suppressions.hpp"
 #include "program.hpp"
 #include "reading.hpp"
 
@@ -47,6 +48,12 @@ TEST_CASE("EDS: without a change the written bytes are those read") {
     const std::string bytes = test::bytes_of(entry.path());
     CHECK(Edits().applied_to(document_of(bytes).source().bytes()) == bytes);
   }
+}
+
+TEST_CASE("EDS: the first line may have a byte order mark and blanks behind it") {
+  const std::string mark = "\xEF\xBB\xBF";
+  CHECK(document_of(mark + " [2000]\n").find("2000") != nullptr);
+  CHECK(eds::suppressions(document_of(mark + "; codict: ignore od-limit\n[2000]\n")).size() == 1);
 }
 
 TEST_CASE("EDS: any bytes are read and kept") {

@@ -133,6 +133,16 @@ TEST_CASE("EDS normal form: line ends and encoding are those of the file") {
   CHECK(formatted("").empty());
 }
 
+TEST_CASE("EDS normal form: bytes of a byte order mark have no meaning behind the beginning of the file") {
+  const std::string mark = "\xEF\xBB\xBF";
+  CHECK(formatted(mark + " [2000h]\n") == mark + "[2000]\n");
+  for (const char* before : {"\n", " "}) {
+    const std::string once = formatted(before + mark + "[2000h]\n");
+    CHECK(once == "\n" + mark + "[2000h]\n");
+    CHECK(formatted(once) == once);
+  }
+}
+
 TEST_CASE("EDS normal form: $NODEID in a text is kept") {
   for (const char* type : {"0x0009", "0x000A", "0x000B", "0x000F", "0x0008"}) {
     CAPTURE(type);

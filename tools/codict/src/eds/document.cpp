@@ -171,23 +171,20 @@ void Document::read_line(std::uint32_t number, Findings& findings) {
     findings.add(rules::syntax_control, {at, at + 1},
                  fmt::format("control character {:02X}h", static_cast<unsigned char>(*found)), "remove it");
   }
-  Span line = trimmed_span(source_, all);
-  if (number == 1) {
-    line.begin += static_cast<std::uint32_t>(mark_size(raw(line)));
-  }
-  const std::string_view content = raw(line);
-  if (content.empty()) {
+  const Span line = content(number);
+  if (line.is_empty()) {
     return;
   }
+  const std::string_view text = raw(line);
   const bool is_indented = line.begin != all.begin && number != 1;
-  if (content.front() == '#' || content.substr(0, 2) == "//") {
+  if (text.front() == '#' || text.substr(0, 2) == "//") {
     findings.add(rules::syntax_comment, line, "comment does not begin with a semicolon", "begin it with ;");
   } else if (is_indented) {
     findings.add(rules::syntax_indent, {all.begin, line.begin}, "leading blanks in the line", "remove them");
   }
-  if (content.front() == '[') {
+  if (text.front() == '[') {
     read_section(number, line, findings);
-  } else if (!is_comment(content)) {
+  } else if (!is_comment(text)) {
     read_key(number, line, findings);
   }
 }
@@ -268,10 +265,16 @@ const Key* Document::find(const Section& section, std::string_view key) const {
   return find_named(source_, section.by_name, section.keys, key);
 }
 
+Span Document::content(std::uint32_t line) const {
+  Span span = source_.line(line);
+  span.begin += line == 1 ? static_cast<std::uint32_t>(mark_size(raw(span))) : 0;
+  return trimmed_span(source_, span);
+}
+
 std::vector<Span> Document::comments(const Section& section) const {
   std::vector<Span> found;
   for (std::uint32_t number = section.line + 1; number < section.end; ++number) {
-    const Span line = trimmed_span(source_, source_.line(number));
+    const Span line = content(number);
     if (raw(line).substr(0, 1) == ";") {
       found.push_back({line.begin + 1, line.end});
     }
@@ -282,7 +285,7 @@ std::vector<Span> Document::comments(const Section& section) const {
 std::uint32_t Document::last_line(const Section& section) const {
   std::uint32_t last = section.line;
   for (std::uint32_t number = section.line + 1; number < section.end; ++number) {
-    const std::string_view line = trimmed(raw(source_.line(number)));
+    const std::string_view line = raw(content(number));
     if (!line.empty() && (!is_comment(line) || is_hidden_key(line))) {
       last = number;
     }

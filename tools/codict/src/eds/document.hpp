@@ -51,6 +51,9 @@ class Document {
   std::string_view raw(Span span) const { return source_.slice(span); }
   std::string text(Span span) const { return to_utf8(raw(span), encoding_); }
 
+  /// Returns a line without surrounding blanks, and the first one without byte order mark.
+  Span content(std::uint32_t line) const;
+
   /// Returns the comments of a section that begin with a semicolon, without the semicolon, as spans of the source.
   std::vector<Span> comments(const Section& section) const;
 

@@ -178,11 +178,7 @@ class Formatter {
 
  private:
   const Source& source() const { return document_.source(); }
-  std::string_view content(std::uint32_t line) const {
-    std::string_view text = document_.raw(source().line(line));
-    text.remove_prefix(line == 1 ? mark_size(text) : 0);
-    return trimmed(text);
-  }
+  std::string_view content(std::uint32_t line) const { return document_.raw(document_.content(line)); }
 
   bool has_suppression(const Block& block) const {
     return std::any_of(block.before.begin(), block.before.end(), [this](std::string_view line) {
@@ -199,7 +195,8 @@ class Formatter {
       if (line.empty()) {
         return;
       }
-      if (is_first && text_.size() > mark_size(text_)) {
+      const bool begins_with_mark = text_.empty() && mark_size(line) != 0;  // it would become the mark of the file
+      if (begins_with_mark || (is_first && text_.size() > mark_size(text_))) {
         text_ += document_.line_end();
       }
       is_first = false;

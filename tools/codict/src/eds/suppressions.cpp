@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "text/number.hpp"
-
 namespace lexican::codict::eds {
 
 namespace {
@@ -23,15 +21,6 @@ Span scope_of(const Document& document, std::uint32_t line) {
   return {source.line(line).begin, source.line(is_header ? section->end - 1 : line).end};
 }
 
-// Returns the suppressions of a line; none if it is not a comment.
-std::vector<Suppression> suppressions_in_line(const Source& source, Span line, std::string_view text) {
-  if (text.substr(0, 1) != ";") {
-    return {};
-  }
-  const auto begin = static_cast<std::uint32_t>(text.data() - source.bytes().data());
-  return suppressions_in(source, {begin + 1, line.end});
-}
-
 }  // namespace
 
 std::vector<Suppression> suppressions(const Document& document) {
@@ -39,12 +28,16 @@ std::vector<Suppression> suppressions(const Document& document) {
   std::vector<Suppression> all;
   std::size_t waiting = 0;  // index of the first suppression whose scope is not yet set
   for (std::uint32_t number = 1; number <= source.lines(); ++number) {
-    const Span line = source.line(number);
-    const std::string_view text = trimmed(source.slice(line));
-    const std::vector<Suppression> here = suppressions_in_line(source, line, text);
-    all.insert(all.end(), here.begin(), here.end());
-    const bool is_something = !text.empty() && text.front() != ';';
-    for (; is_something && waiting < all.size(); ++waiting) {
+    const Span line = document.content(number);
+    if (line.is_empty()) {
+      continue;
+    }
+    if (source.slice(line).front() == ';') {
+      const std::vector<Suppression> here = suppressions_in(source, {line.begin + 1, line.end});
+      all.insert(all.end(), here.begin(), here.end());
+      continue;
+    }
+    for (; waiting < all.size(); ++waiting) {
       all[waiting].scope = scope_of(document, number);
     }
   }
