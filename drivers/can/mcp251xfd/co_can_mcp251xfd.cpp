@@ -29,7 +29,8 @@ constexpr unsigned service_rounds = 8;
 constexpr unsigned receive_places = 32;
 constexpr unsigned filter_number = 31;  // the last one passes all frames, without filters and while they change
 constexpr std::uint32_t no_answer = 0xFFFFFFFF;
-constexpr std::uint32_t used_interrupts = interrupt_receive | interrupt_event | interrupt_overflow | interrupt_error;
+constexpr std::uint32_t used_interrupts =
+    interrupt_receive | interrupt_mode | interrupt_event | interrupt_overflow | interrupt_error;
 
 // SPI -----------------------------------------------------------------------------------------------------------------
 
@@ -66,6 +67,9 @@ bool await_bits(const Can& can, unsigned address, std::uint32_t bits, std::uint3
   }
   return reads != 0;
 }
+
+// Selects the mode on the bus.
+void request_mode(const Can& can) { write_byte(can, control + 3, can.Loopback ? request_loopback : request_normal); }
 
 // Returns the address of the object to which a register UA points.
 unsigned object_at(std::uint32_t offset) { return message_memory + (offset & 0x7FC); }
@@ -228,10 +232,14 @@ void begin_bus_off(Can& can) {
 void read_errors(Can& can) {
   const bool was_bus_off = is_in_bus_off(can);
   report::store(can.Errors, static_cast<std::uint8_t>(read(can, errors) >> 16 & (error_passive | error_bus_off)));
-  if (!was_bus_off && is_in_bus_off(can)) {
+  const bool is_recovered = !is_in_bus_off(can) && (read(can, diagnosis) & diagnosis_recovered) != 0;
+  if (is_recovered) {
+    write_byte(can, diagnosis + 2, 0);
+  }
+  if (!was_bus_off && (is_recovered || is_in_bus_off(can))) {
     begin_bus_off(can);
   }
-  if (was_bus_off && !is_in_bus_off(can)) {
+  if (is_recovered && !is_in_bus_off(can)) {
     finish(can);
   }
 }
@@ -247,6 +255,13 @@ bool service_once(Can& can) {
   }
   if ((flags & interrupt_error) != 0 || can.Errors != 0) {
     read_errors(can);
+  }
+  if ((flags & interrupt_mode) != 0) {
+    write_byte(can, interrupts, 0);
+  }
+  // The controller has left the bus after an underflow of its message buffers. It keeps its frames.
+  if ((flags & interrupt_mode) != 0 && can.IsBusOff == 0) {
+    request_mode(can);
   }
   if ((flags & (interrupt_receive | interrupt_overflow)) != 0) {
     receive(can);
@@ -377,7 +392,7 @@ struct Port {
     if (read(can, timing) == rate.Timing) {
       can.Rate = &rate;
       can.IsJoining = 1;
-      write_byte(can, control + 3, can.Loopback ? request_loopback : request_normal);
+      request_mode(can);
     }
   }
 

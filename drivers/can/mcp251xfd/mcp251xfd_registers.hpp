@@ -25,6 +25,7 @@ inline constexpr unsigned timing = 0x004;   ///< C1NBTCFG, followed by C1DBTCFG
 inline constexpr unsigned data_timing = 0x008;
 inline constexpr unsigned interrupts = 0x01C;       ///< C1INT: flags, in the upper half enables
 inline constexpr unsigned errors = 0x034;           ///< C1TREC
+inline constexpr unsigned diagnosis = 0x03C;        ///< C1BDIAG1
 inline constexpr unsigned event_control = 0x040;    ///< C1TEFCON
 inline constexpr unsigned event_status = 0x044;     ///< C1TEFSTA, followed by C1TEFUA
 inline constexpr unsigned queue_control = 0x050;    ///< C1TXQCON, followed by C1TXQSTA, C1TXQUA
@@ -50,6 +51,7 @@ inline constexpr unsigned request_abort = 8;  ///< ABAT: aborts all messages tha
 /// \name C1INT
 /// \{
 inline constexpr std::uint32_t interrupt_receive = 1U << 1;
+inline constexpr std::uint32_t interrupt_mode = 1U << 3;  ///< MODIF: the mode has changed
 inline constexpr std::uint32_t interrupt_event = 1U << 4;
 inline constexpr std::uint32_t interrupt_overflow = 1U << 11;
 inline constexpr std::uint32_t interrupt_error = 1U << 13;  ///< CERRIF: the error state has changed
@@ -60,6 +62,8 @@ inline constexpr std::uint32_t interrupt_error = 1U << 13;  ///< CERRIF: the err
 inline constexpr unsigned error_passive = 0x18;  ///< RXBP, TXBP
 inline constexpr unsigned error_bus_off = 0x20;  ///< TXBO
 /// \}
+
+inline constexpr std::uint32_t diagnosis_recovered = std::uint32_t{1} << 23;  ///< C1BDIAG1.TXBOERR: a bus-off has ended
 
 /// \name C1TEFCON, C1TXQCON, C1FIFOCON1, and the same bits shifted for their byte 1
 /// \{

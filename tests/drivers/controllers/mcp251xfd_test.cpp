@@ -167,6 +167,11 @@ TEST_CASE("MCP251xFD: works without interrupts, with and without the level of IN
       bench.run(200);
       CHECK(bench.sent_by(can).back() == "7FF#0102");
       CHECK(bench.sent_by(can).size() == 21);
+      drive_to_bus_off(bench, can);  // and recovery between two calls of Read
+      CHECK(bench.run_until([&] { return !can.is_off_bus(); }));
+      CHECK(can.read_all() == Texts{"20000240#0000000000000000", "20000300#0000000000000000"});
+      bench.run(200);
+      CHECK(bench.sent_by(can).size() == 22);
       bench.receive(standard_frame(0x124));
       CHECK(can.read_all() == Texts{"124#"});
     }
@@ -226,6 +231,31 @@ TEST_CASE("MCP251xFD: bus-off by application is left by Reset, automatic recover
       CHECK(can.takes("124#"));
       bench.run(100);
       CHECK(bench.sent_by(can).back() == "124#");
+    }
+  }
+}
+
+TEST_CASE("MCP251xFD: sends and receives again after it has entered Restricted mode because of an underflow") {
+  for (const bool has_interrupt : {true, false}) {
+    for (const bool loopback : {true, false}) {
+      CAPTURE(has_interrupt);
+      CAPTURE(loopback);
+      Bench bench;
+      bench.are_interrupts_enabled = has_interrupt;
+      ControllerOptions options;
+      options.loopback = loopback;
+      Controller& can = bench.add(Kind::mcp251xfd, options);
+      bench.run(20);
+      mcp251xfd_of(can).underflow_next();
+      CHECK(can.takes("123#01"));
+      bench.run(3);
+      CHECK(can.read_all() == Texts{});
+      bench.run(200);
+      CHECK((mcp251xfd_of(can).peek(0x000) >> 21 & 7) == (loopback ? 2 : 0));  // OPMOD
+      CHECK(can.read_all() == (loopback ? Texts{"123#01"} : Texts{}));
+      CHECK(can.takes("124#02"));
+      bench.run(200);
+      CHECK(bench.sent_by(can) == Texts{"123#01", "124#02"});
     }
   }
 }

@@ -339,10 +339,11 @@ void Mcp251xfd::write_control(std::uint32_t value) {
       abort(one);
     }
   }
-  if (request == before) {
+  const bool has_left = mode_ == Mode::restricted || (mode_ == Mode::listen_only && before != mode_);  // underflow()
+  if (request == before && (!has_left || wanted_)) {
     return;
   }
-  const bool is_between = !is_configuring() && request != Mode::configuration && request != mode_;
+  const bool is_between = !is_configuring() && request != Mode::configuration && request != mode_ && !has_left;
   if (request == Mode::sleep || request == Mode::restricted || is_between) {
     fault(
         "C1CON.REQOP: Sleep mode, Restricted Operation mode, and changes other than to and from Configuration mode "
@@ -391,9 +392,20 @@ void Mcp251xfd::begin_joining(Mode mode) {
   node_mode.fd = mode == Mode::normal_classic ? FdMode::tolerant : FdMode::enabled;
   node_mode.exception_is_error = true;
   node_mode.pauses = word(con) >> 28 != 0;  // TXBWS
+  node_.stop();
   node_.set_mode(node_mode);
   node_.start();
   is_joining_ = true;
+}
+
+// Erratum 1 of MCP2517FD. C1CON.REQOP does not change.
+void Mcp251xfd::underflow() {
+  is_underflow_next_ = false;
+  mode_ = (word(con) & serr2lom) != 0 ? Mode::listen_only : Mode::restricted;
+  CanMode mode = node_.mode();
+  mode.is_listen_only = mode_ == Mode::listen_only;
+  node_.set_mode(mode);
+  word(interrupts) |= serrif | modif;
 }
 
 // Configuration mode resets all FIFOs; its end resets the error counters.

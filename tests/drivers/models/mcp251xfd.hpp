@@ -33,6 +33,9 @@ class Mcp251xfd : public SpiModel, private CanClient {
   CanNode& node() { return node_; }
   std::uint32_t bit_rate() const;  ///< of C1NBTCFG and OSC in bit/s
   unsigned sample_point() const;   ///< in permille of the bit time
+  /// Lets the message buffer underflow at the next transmission: the controller enters Restricted Operation mode, or
+  /// Listen Only mode with C1CON.SERR2LOM. The message stays pending.
+  void underflow_next() { is_underflow_next_ = true; }
   /// Returns a register or a word of the RAM without an SPI transaction. The address is a multiple of 4.
   std::uint32_t peek(std::uint16_t address) const { return read_word(address); }
 
@@ -133,6 +136,7 @@ class Mcp251xfd : public SpiModel, private CanClient {
   void change_mode();
   void begin_joining(Mode mode);
   void enter(Mode mode);
+  void underflow();
   bool is_configuring() const { return mode_ == Mode::configuration; }
   std::uint32_t clock() const;
   void check_timing();
@@ -155,6 +159,7 @@ class Mcp251xfd : public SpiModel, private CanClient {
   CanNode node_;
   Mode mode_ = Mode::configuration;
   std::optional<Mode> wanted_;
+  bool is_underflow_next_ = false;
   bool is_joining_ = false;                      // the node waits for 11 recessive bits before the mode changes
   std::array<std::uint32_t, 0xC0> registers_{};  // 000h to 2FFh; those of FIFOs are not used
   std::array<std::uint32_t, 6> chip_{};          // E00h to E17h

@@ -51,11 +51,13 @@ constexpr std::uint32_t con_protected = 0x001F0160;
 constexpr std::uint32_t abat = bit(27);
 constexpr std::uint32_t txqen = bit(20);
 constexpr std::uint32_t stef = bit(19);
+constexpr std::uint32_t serr2lom = bit(18);
 constexpr std::uint32_t rtxat = bit(16);
 constexpr std::uint32_t busy = bit(11);
 
 // C1INT
 constexpr std::uint32_t modif = bit(3);
+constexpr std::uint32_t serrif = bit(12);
 constexpr std::uint32_t cerrif = bit(13);
 constexpr std::uint32_t ivmif = bit(15);
 constexpr std::uint32_t clearable = 0xF00C;

@@ -337,7 +337,10 @@ std::optional<CanFrame> Mcp251xfd::next_frame() {
                           (priority(one) == priority(*first) && first != &fifos_[0]);
     first = one.is_requested && is_first ? &one : first;
   }
-  if (first == nullptr) {
+  if (first != nullptr && is_underflow_next_) {
+    underflow();
+  }
+  if (first == nullptr || mode_ == Mode::restricted || mode_ == Mode::listen_only) {
     return std::nullopt;
   }
   transmitting_ = first;

@@ -16,6 +16,7 @@ constexpr unsigned listen_only = 3;
 constexpr unsigned configuration = 4;
 constexpr unsigned external_loopback = 5;
 constexpr unsigned classic = 6;
+constexpr unsigned restricted = 7;
 
 constexpr std::uint32_t extended = 1U << 30;  // EXIDE, MIDE
 
@@ -343,6 +344,29 @@ TEST_CASE("mcp251xfd: Listen Only mode receives without acknowledgement and with
   station.receive(standard_frame(0x123));
   CHECK((station.read(fifosta(1)) & 1) == 1);
   CHECK((station.read(0x034) & 0xFFFF) == 0);
+}
+
+TEST_CASE("mcp251xfd: an underflow leads to Restricted or Listen Only mode until REQOP is written; frames are kept") {
+  for (const bool is_silent : {false, true}) {
+    CAPTURE(is_silent);
+    Station station;
+    station.write(0x000, is_silent ? 0x04140760 : 0x04100760);  // SERR2LOM
+    station.start();
+    station.can.underflow_next();
+    station.send(0, standard_frame(0x100));
+    station.wire.advance(200);
+    CHECK(station.peer.received.empty());
+    CHECK(station.mode() == (is_silent ? listen_only : restricted));
+    CHECK((station.read(0x01C) & 0x1008) == 0x1008);  // SERRIF, MODIF
+    station.peer.send(standard_frame(0x123));
+    station.wire.advance(100);
+    CHECK(station.wire.sent() == (is_silent ? 0 : 1));
+    station.peer.cancel();
+    station.write_byte(0x01D, 0);
+    station.start();
+    station.wire.advance(200);
+    CHECK(station.peer.received.size() == 1);
+  }
 }
 
 TEST_CASE("mcp251xfd: bit rate and sample point of C1NBTCFG and OSC [3]") {
