@@ -11,6 +11,7 @@ lane() {
   check "demo/run --virtual" shows "steps in .* all as expected" --virtual
   check "docs/pictures shows this output" same_screen
   check "demo/run thermometer" shows "TPDO1 temperature in 0.1 degrees Celsius = 1010" thermometer
+  check "demo/run srdo" shows "the motor was off [0-9.]+ ms after the fault" srdo
   check "demo/run recorder, and its picture in Chromium" drawn
   check "demo/run --serve, and the commands for the master" served
   check "demo/run --serve without node-ID, and lss set-id" configured

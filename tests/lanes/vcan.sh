@@ -17,7 +17,8 @@ lane() {
   heater >"$results/heater.log" 2>&1 || { fail "build of demo/heater" "$results/heater.log"; return; }
   python3 "$root/tests/programs/commands/commands.py" "$root" vcan >"$results/vcan.commands"  # in place of run_pages
   run_tap "$root/tests/drivers/vcan/run" "$demo/linux_node/lexican-demo-node" "$demo/linux_master/lexican-demo-master" \
-    "$build/release/tests/lexican_bus_tests" "$check" "$build/heater/heater" "$results/vcan.commands"
+    "$build/release/tests/lexican_bus_tests" "$check" "$build/heater/heater" \
+    "$demo/srdo/lexican-demo-srdo" "$results/vcan.commands"
 }
 
 # Builds as docs/start/4-from-an-eds.md describes, with the codict that a project for another machine has built.

@@ -2,5 +2,5 @@
 # SPDX-License-Identifier: Apache-2.0
 # demo/run of the guest, which cannot build the programs.
 program=lexican-demo-node
-[ "$1" != master ] || { program=lexican-demo-master && shift; }
+case $1 in master | srdo) program=lexican-demo-$1 && shift ;; esac
 exec $program "$@"

@@ -474,6 +474,41 @@ $master --node 9 nmt start
 expect "the generated node sends changed values" "$tpdo#??00 $tpdo#??00"
 kill $server
 
+# --- SRDO: a button (node-ID 4) and a drive (node-ID 5), demo/srdo
+
+restarted() {  # NAME: errors end when the nodes leave Operational
+  : >/tmp/trace
+  cansend vcan0 000#8000
+  cansend vcan0 000#0100
+  shown "$1" "motor on"
+}
+
+: >/tmp/trace
+listen "107 108" 4
+lexican-demo-srdo --can vcan0 --serve >>/tmp/trace 2>&1 &
+server=$!
+expect "SRDO: pairs of frames, inverse to each other" "107#00 108#FF 107#00 108#FF"
+shown "SRDO: the consumer is established" "drive:  established"
+shown "SRDO: the motor runs" "motor on"
+listen 085 1
+cansend vcan0 108#00
+expect "SRDO: an inverse frame without a plain one: EMCY 8200h with the state 5" "085#0082110000011305"
+shown "SRDO: the safe state: frames not inverse" "drive:  error: frames not inverse"
+shown "SRDO: the motor is off" "motor off"
+restarted "SRDO: established again after the error"
+cansend vcan0 107#00
+shown "SRDO: the safe state after a plain frame without an inverse one" "drive:  error: "
+shown "SRDO: the motor is off" "motor off"
+restarted "SRDO: established again"
+cansend vcan0 000#8004
+shown "SRDO: the safe state after the end of the producer" "drive:  error: no pair in time"
+shown "SRDO: the motor is off" "motor off"
+kill -TERM $server
+wait $server
+verdict $? "SRDO: SIGTERM ends the nodes with status 0" "status $?"
+lexican-demo-srdo --can vcan0 >/tmp/trace 2>&1
+verdict $? "SRDO: the motor stops when the button is pressed and when its contact fails" "$(cat /tmp/trace)"
+
 lexican_bus_tests >/tmp/socketcan 2>&1
 summary=$(grep "test cases:" /tmp/socketcan)
 echo "$summary" | grep -Eq "test cases: +10 +\| +10 passed"

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# arguments.sh NODE MASTER THERMOMETER RECORDER
+# arguments.sh NODE MASTER THERMOMETER RECORDER SRDO
 #
 # Checks that demo/run checks its arguments and shows its help before it installs or builds anything, that the commands
 # in README.md are valid, and that the help texts have the options of the programs.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
-node=${1:?the demo node} master=${2:?the demo master} thermometer=${3:?the thermometer} recorder=${4:?the recorder}
+node=${1:?the demo node} master=${2:?the demo master} thermometer=${3:?the thermometer} recorder=${4:?the recorder} srdo=${5:?the SRDO demo}
 trap 'rm -r "$work"' EXIT
 
 # Replacements of the tools that install and build, which record their arguments.
@@ -29,6 +29,7 @@ answers "help of the master" 0 "*--index HEX*nmt *" master --help
 answers "help of lss" 0 "*--address V P R S*set-bitrate*" master lss --help
 answers "help of the thermometer" 0 "*Usage: demo/run thermometer*" thermometer --help
 answers "help of the recorder" 0 "*Usage: demo/run recorder*--output FILE*" recorder --help
+answers "help of the SRDO demo" 0 "*Usage: demo/run srdo*--can IF*" srdo --help
 answers "help of the boards" 0 "*mps2-an385*--serve*" --bare-metal --help
 
 answers "unknown option" 2 "demo/run: unknown option '--frames' of the node*--every-frame*" --frames
@@ -45,6 +46,7 @@ answers "unknown NMT command" 2 "demo/run: nmt needs one of: start stop preop re
 answers "unknown LSS service" 2 "demo/run: lss needs one of: scan set-id set-bitrate store inquire" master lss find
 answers "argument of the thermometer" 2 "demo/run: unknown argument '20' of thermometer*" thermometer 20
 answers "argument of the recorder" 2 "demo/run: unknown argument 'x.csv' of recorder*" recorder x.csv
+answers "argument of the SRDO demo" 2 "demo/run: unknown argument 'vcan0' of srdo*" srdo vcan0
 answers "missing value of the recorder" 2 "demo/run: option '--output' of recorder needs a value*" recorder --output
 answers "unknown board" 2 "demo/run: unknown board 'uno'; one of *" --bare-metal uno
 answers "unknown option of a board" 2 "demo/run: unknown option '--virtual' of --bare-metal*" --bare-metal microbit --virtual
@@ -75,6 +77,7 @@ same_options master.txt "$master"
 same_options lss.txt "$master" lss
 same_options thermometer.txt "$thermometer"
 same_options recorder.txt "$recorder"
+same_options srdo.txt "$srdo"
 
 # Checks that missing packages are named with their size before they are installed.
 ends "missing packages" 0 "missing Debian packages: sl
