@@ -98,7 +98,7 @@ class Bench {
   void run() {
     with_lock([this] {
       CONodeStart(&node_);
-      sign();
+      network_.sign();
     });
     while (!input_.is_empty()) {
       const std::uint8_t kind = input_.byte();
@@ -181,14 +181,6 @@ class Bench {
     require(result == ODR_OK, "the table has an index");
   }
 
-  // Makes the configuration of the SRDOs valid; it takes effect when the node enters Operational.
-  void sign() {
-    for (std::uint8_t n = 0; n < std::size(services_.srdo); ++n) {
-      COSrdoSignature(&node_, n, &services_.srdo[n].signature);
-    }
-    services_.srdo_valid = CO_SRDO_CONFIGURATION_VALID;
-  }
-
   // Steps -------------------------------------------------------------------
 
   void receive(std::uint8_t kind) {
@@ -199,10 +191,7 @@ class Bench {
     CO_IF_FRM frame{};
     frame.Identifier = kind < 0x60 ? identifiers[kind % std::size(identifiers)] : input_.number();
     const std::uint32_t id = frame.Identifier;
-    frame.DLC = kind >= 0x60                 ? below(9)
-                : id == 1                    ? std::uint8_t{0}
-                : id == 0x109 || id == 0x10A ? std::uint8_t{2}
-                                             : network_.usual_length(id);
+    frame.DLC = kind >= 0x60 ? below(9) : network_.usual_length(id);
     for (std::uint8_t& byte : frame.Data) {
       byte = id == 0x10A ? static_cast<std::uint8_t>(~last_[&byte - frame.Data]) : input_.byte();
     }
@@ -316,12 +305,8 @@ class Bench {
     COCSdoGetTotal(node_.CSdo);
     COCSdoGetNum(node_.CSdo);
   }
-  void send_gfc() { COGfcSend(&node_); }
-  void use_srdo() {
-    const std::uint8_t what = input_.byte();
-    what < 0x40 ? sign() : void(COSrdoRequest(&node_, std::uint8_t(what & 3U)));
-    COSrdoIsEstablished(&node_);
-  }
+  void send_gfc() { network_.send_gfc(); }
+  void use_srdo() { network_.use_srdo(); }
   void send_mpdo() {
     const std::uint8_t to = below(8);
     COTPdoSendTo(&node_, below(4), to, any_key(), input_.byte());

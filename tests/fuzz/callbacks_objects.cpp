@@ -2,51 +2,20 @@
 #include "fuzz/callbacks_objects.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "fuzz/fuzz.hpp"
 
 namespace fuzz {
 namespace {
 
-// A byte that an SRDO can map: its value depends on Data, the type functions call the API.
-std::uint32_t size_of_byte(CO_OBJ*, CO_NODE*, std::uint32_t) { return 1; }
-CO_ERR read_byte(CO_OBJ* obj, CO_NODE*, void* buffer, std::uint32_t size) {
-  std::memset(buffer, obj->Data == 0 ? 0x5A : 0xA5, size);
-  return mood();
-}
-CO_ERR write_byte(CO_OBJ*, CO_NODE*, void*, std::uint32_t) { return mood(); }
-constexpr CO_OBJ_TYPE byte_type = {size_of_byte, nullptr, read_byte, write_byte, nullptr};
-
 template <class T>
 CO_OBJ row(std::uint32_t index, std::uint32_t sub, std::uint32_t flags, const CO_OBJ_TYPE* type, const T* data) {
   return {CO_KEY(index, sub, flags), type, reinterpret_cast<std::uintptr_t>(data)};
 }
 
-void add_srdo(std::vector<CO_OBJ>& table, std::uint32_t n, SrdoObjects& srdo) {
-  const auto add = [&](std::uint32_t sub, const void* data) {
-    table.push_back(row(0x1301 + n, sub, CO_OBJ_____RW, CO_TSRDO_COM, static_cast<const std::uint8_t*>(data)));
-  };
-  add(1, &srdo.direction);
-  add(2, &srdo.cycle);
-  add(3, &srdo.validation);
-  add(4, &srdo.type);
-  add(5, &srdo.id[0]);
-  add(6, &srdo.id[1]);
-  table.push_back(row(0x1381 + n, 0, CO_OBJ_____RW, CO_TSRDO_MAP, &srdo.number));
-  for (std::uint32_t sub = 1; sub <= 4; ++sub) {
-    table.push_back(row(0x1381 + n, sub, CO_OBJ_____RW, CO_TSRDO_MAP, &srdo.map[sub - 1]));
-  }
-  table.push_back(row(0x13FF, n + 1, CO_OBJ_____RW, CO_TSRDO_SIGNATURE, &srdo.signature));
-}
-
 void add_services(std::vector<CO_OBJ>& table, ServiceObjects& o) {
   constexpr std::uint32_t rw = CO_OBJ_____RW;
   for (std::uint32_t n = 0; n < 2; ++n) {
-    add_srdo(table, n, o.srdo[n]);
-    table.push_back(row(0x2310, n + 1, CO_OBJ____PRW, CO_TUNSIGNED8, &o.plain[n]));
-    table.push_back(row(0x2311, n + 1, CO_OBJ____PRW, CO_TUNSIGNED8, &o.inverse[n]));
-    table.push_back({CO_KEY(0x2310 + n, 3, CO_OBJ____PRW), &byte_type, n});
     table.push_back(row(0x1020, n + 1, rw, CO_TVERIFY_CONFIG, &o.verify[n]));
     table.push_back(row(0x1FA0, n + 1, rw, CO_TPDO_SCAN, &o.scan[n]));
     table.push_back(row(0x1FD0, n + 1, rw, CO_TPDO_DISPATCH, &o.dispatch[n]));
@@ -66,8 +35,6 @@ void add_services(std::vector<CO_OBJ>& table, ServiceObjects& o) {
     table.push_back({CO_KEY(0x1018, sub, CO_OBJ_D___R_), CO_TUNSIGNED32, 0});
   }
   const CO_OBJ others[] = {
-      row(0x13FE, 0, rw, CO_TSRDO_VALID, &o.srdo_valid),
-      row(0x1300, 0, rw, CO_TGFC, &o.gfc),
       row(0x2400, 0, rw, CO_TREC_ENABLE, &o.recorder_enable),
       row(0x2401, 5, CO_OBJ_____R_, CO_TREC_PLOT, &o.recorder[0]),
       row(0x1010, 1, rw, CO_TPARA_STORE, &o.all_groups),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file callbacks_objects.hpp
-/// Objects of the services that node_objects.hpp lacks: SRDO, GFC, multiplex PDOs, recorder, parameter groups, LSS and
+/// Objects of the services that node_objects.hpp lacks: multiplex PDOs, recorder, parameter groups, LSS and
 /// commands; and all callbacks, which call fuzz::call_api().
 #pragma once
 
@@ -14,28 +14,9 @@ namespace fuzz {
 
 void call_api();  ///< calls API functions; defined by the fuzz target
 
-struct SrdoObjects {
-  std::uint8_t direction;
-  std::uint16_t cycle;
-  std::uint8_t validation;
-  std::uint8_t type;
-  std::uint32_t id[2];
-  std::uint8_t number;
-  std::uint32_t map[4];
-  std::uint16_t signature;
-};
-
 struct ServiceObjects {
   ServiceObjects();
 
-  SrdoObjects srdo[2] = {
-      {CO_SRDO_RX, 50, 20, 254, {0x109, 0x10A}, 4, {0x23100108, 0x23110108, 0x23100308, 0x23110308}, 0},
-      {CO_SRDO_TX, 25, 20, 254, {0x10B, 0x10C}, 4, {0x23100208, 0x23110208, 0x23100308, 0x23110308}, 0},
-  };
-  std::uint8_t srdo_valid = CO_SRDO_CONFIGURATION_VALID;
-  std::uint8_t plain[2] = {1, 2};
-  std::uint8_t inverse[2] = {0xFE, 0xFD};
-  std::uint8_t gfc = 1;
   std::uint32_t scan[2] = {CO_MPDO_SCAN(3, 0x2000, 0), CO_MPDO_SCAN(1, 0x2200, 0)};
   std::uint64_t dispatch[2] = {CO_MPDO_DISPATCH(2, 0x2000, 0, 0x2000, 0, 9),
                                CO_MPDO_DISPATCH(1, 0x2200, 0, 0x3000, 0, 9)};

@@ -83,6 +83,7 @@ class Bench {
     if (input_.flag()) {
       act(start_action);
     }
+    network_.sign();
     while (!input_.is_empty()) {
       step();
       check();
@@ -204,6 +205,9 @@ class Bench {
     };
     CO_IF_FRM frame{};
     frame.Identifier = (kind & 0x18U) == 0x18U ? input_.number() : identifiers[kind & 0x1FU];
+    if ((kind & 0x1FU) == 0x1FU) {
+      return srdo_frame(frame.Identifier);
+    }
     frame.DLC = (kind & 0x60U) == 0x60U ? input_.byte() : network_.usual_length(frame.Identifier);
     for (std::uint8_t& byte : frame.Data) {
       byte = input_.byte();
@@ -213,6 +217,24 @@ class Bench {
     } else if ((kind & 0xE0U) == 0x60U) {
       fuzz::Network::name_object(frame);
     }
+    return frame;
+  }
+
+  // Returns a frame for the SRDO that is received, the inverse one usually with the inverted data of the last plain
+  // one, or a GFC.
+  CO_IF_FRM srdo_frame(std::uint32_t bits) {
+    constexpr std::uint32_t identifiers[] = {0x109, 0x10A, 0x109, 0x10A, 0x10B, 0x10C, 0x109, 0x001};
+    CO_IF_FRM frame{identifiers[bits & 7U], {}, 0};
+    frame.DLC =
+        (bits & 0x70U) == 0x70U ? static_cast<std::uint8_t>(bits >> 8) : network_.usual_length(frame.Identifier);
+    for (std::uint8_t& byte : frame.Data) {
+      byte = input_.byte();
+    }
+    if (frame.Identifier == 0x10A && (bits & 8U) == 0) {
+      std::transform(std::begin(plain_), std::end(plain_), std::begin(frame.Data),
+                     [](std::uint8_t byte) { return static_cast<std::uint8_t>(~byte); });
+    }
+    std::copy(std::begin(frame.Data), std::end(frame.Data), plain_);
     return frame;
   }
 
@@ -529,8 +551,9 @@ class Bench {
     require(counters.Malformed <= counters.Received, "a malformed frame is counted once");
   }
 
-  static constexpr unsigned most_timers = own_timers + 3U + CO_CSDO_N + CO_RPDO_N + CO_TPDO_N +
-                                          12U;  // heartbeat, servers, guarding, clients, PDOs; EMCY, SYNC, TIME, LED
+  static constexpr unsigned most_timers =
+      own_timers + 3U + CO_CSDO_N + CO_RPDO_N + CO_TPDO_N + CO_SRDO_N +
+      12U;  // heartbeat, servers, guarding, clients, PDOs, SRDOs; EMCY, SYNC, TIME, LED
 
   unsigned timers_in_list() const {
     unsigned number = 0;
@@ -729,6 +752,7 @@ class Bench {
   Request requests_[2];
   unsigned ends_ = 0;  // callbacks of SDO clients so far
   Memory sdo_buffer_;
+  std::uint8_t plain_[8] = {};  // data of the last frame of an SRDO
   std::int16_t timer_ids_[8] = {};
   CO_TMR_MEM timers_[own_timers] = {};
   CO_IF_FRM queue_[3] = {};
@@ -756,6 +780,11 @@ void CONodeCanChange(CO_NODE*, CO_CAN_EVENT) { bench->meddle(); }
 void CONmtHbConsEvent(CO_NMT*, std::uint8_t) { bench->meddle(); }
 void CONmtHbConsChange(CO_NMT*, std::uint8_t, CO_MODE) { bench->meddle(); }
 void CONmtLifeGuardEvent(CO_NMT*, bool) { bench->meddle(); }
+void COGfcReceived(CO_NODE*) { bench->meddle(); }
+void COSrdoChange(CO_NODE* node, std::uint8_t number, CO_SRDO_STATE state) {
+  require(COSrdoGetState(node, number) == state, "COSrdoChange() reports the present state");
+  bench->meddle();
+}
 void COPdoTransmit(CO_IF_FRM*) { bench->meddle(); }
 std::int16_t COPdoReceive(CO_IF_FRM*) { return bench->mood() == CO_ERR_NONE ? 0 : 1; }
 void COPdoSyncUpdate(CO_RPDO*) { bench->meddle(); }

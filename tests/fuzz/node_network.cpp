@@ -29,6 +29,23 @@ void add_pdo(std::vector<CO_OBJ>& table, std::uint32_t n, std::uint32_t communic
   }
 }
 
+void add_srdo(std::vector<CO_OBJ>& table, std::uint32_t n, SrdoObjects& srdo) {
+  const auto add = [&](std::uint32_t sub, const void* data) {
+    table.push_back(row(0x1301 + n, sub, CO_OBJ_____RW, CO_TSRDO_COM, data));
+  };
+  add(1, &srdo.direction);
+  add(2, &srdo.cycle);
+  add(3, &srdo.validation);
+  add(4, &srdo.type);
+  add(5, &srdo.id[0]);
+  add(6, &srdo.id[1]);
+  table.push_back(row(0x1381 + n, 0, CO_OBJ_____RW, CO_TSRDO_MAP, &srdo.number));
+  for (std::uint32_t sub = 1; sub <= 4; ++sub) {
+    table.push_back(row(0x1381 + n, sub, CO_OBJ_____RW, CO_TSRDO_MAP, &srdo.map[sub - 1]));
+  }
+  table.push_back(row(0x13FF, n + 1, CO_OBJ_____RW, CO_TSRDO_SIGNATURE, &srdo.signature));
+}
+
 CO_EMCY_TBL all_errors[network_errors] = {
     {CO_EMCY_REG_GENERAL, CO_EMCY_CODE_GEN_ERR},
     {CO_EMCY_REG_CURRENT, CO_EMCY_CODE_CUR_ERR},
@@ -89,10 +106,17 @@ void add_network(std::vector<CO_OBJ>& table, NetworkObjects& o) {
                                 row(0x1028, 8, CO_OBJ_____RW, CO_TEMCY_CONS, &o.emcy_consumers[1]),
                                 row(0x1029, 1, CO_OBJ_____RW, CO_TERROR_BEHAVIOUR, &o.error_behaviour),
                                 row(0x1F80, 0, CO_OBJ_____RW, CO_TNMT_STARTUP, &o.startup),
+                                row(0x1300, 0, CO_OBJ_____RW, CO_TGFC, &o.gfc),
+                                row(0x13FE, 0, CO_OBJ_____RW, CO_TSRDO_VALID, &o.srdo_valid),
                                 {CO_KEY(0x2300, 0, CO_OBJ____PRW), CO_TTIME_CLOCK, 0},
                             });
   o.heartbeat_consumers[0].NodeId = 9;
   o.heartbeat_consumers[0].Time = 50;
+  for (std::uint32_t n = 0; n < std::size(o.srdo); ++n) {
+    add_srdo(table, n, o.srdo[n]);
+    table.push_back(row(0x2310, n + 1, CO_OBJ____PRW, CO_TUNSIGNED8, &o.plain[n]));
+    table.push_back(row(0x2311, n + 1, CO_OBJ____PRW, CO_TUNSIGNED8, &o.inverse[n]));
+  }
   for (unsigned n = 0; n < network_pdos; ++n) {
     add_pdo(table, n, 0x1400, o.rpdo[n], false);
     add_pdo(table, n, 0x1800, o.tpdo[n], true);
@@ -108,8 +132,10 @@ void Network::act(std::uint8_t kind) {
       &Network::reset_history, &Network::command,        &Network::ask_heartbeats,     &Network::activate_heartbeat,
       &Network::set_time,      &Network::send_time,      &Network::use_leds,           &Network::configure,
       &Network::map_pdo,       &Network::configure_pdo,  &Network::activate_heartbeat, &Network::write_object,
+      &Network::use_srdo,      &Network::send_gfc,       &Network::configure_pdo,      &Network::request_pdo,
+      &Network::trigger_pdo,   &Network::trigger_object, &Network::write_object,       &Network::ask_pdos,
   };
-  (this->*actions[(kind & 31U) % std::size(actions)])();
+  (this->*actions[kind & 31U])();
   look();
 }
 
@@ -120,13 +146,21 @@ void Network::name_object(CO_IF_FRM& frame) {
                                        0x1015, 0x1016, 0x1019, 0x1028, 0x1029, 0x1400, 0x1401, 0x1402,
                                        0x1403, 0x1600, 0x1601, 0x1602, 0x1603, 0x1800, 0x1801, 0x1802,
                                        0x1803, 0x1A00, 0x1A01, 0x1A02, 0x1A03, 0x1F80, 0x2300};
-  CO_SET_WORD(&frame, indices[frame.Data[1] % std::size(indices)], 1);
+  constexpr std::uint16_t srdo_indices[] = {0x1300, 0x1301, 0x1302, 0x1381, 0x1382, 0x13FE, 0x13FF, 0x2310};
+  constexpr unsigned first_srdo = 256 - std::size(srdo_indices);
+  const std::uint8_t what = frame.Data[1];
+  CO_SET_WORD(&frame, what < first_srdo ? indices[what % std::size(indices)] : srdo_indices[what - first_srdo], 1);
   frame.Data[3] &= 15U;
 }
 
+bool Network::is_srdo(std::uint32_t identifier) { return identifier > 0x100 && identifier <= 0x180; }
+
 std::uint8_t Network::usual_length(std::uint32_t identifier) const {
-  if (identifier == 0) {
+  if (identifier == 0 || is_srdo(identifier)) {
     return 2;
+  }
+  if (identifier == 0x001) {  // GFC
+    return 0;
   }
   if (identifier == 0x80) {
     return objects_.sync_counter == 0 ? 0 : 1;
@@ -142,6 +176,11 @@ std::vector<std::uint32_t> Network::written_by_pdos() const {
       devs.push_back(word & 0xFFFFFF00U);
     }
   }
+  for (const SrdoObjects& srdo : objects_.srdo) {
+    for (const std::uint32_t word : srdo.map) {
+      devs.push_back(word & 0xFFFFFF00U);
+    }
+  }
   return devs;
 }
 
@@ -152,7 +191,7 @@ bool Network::may_be_pdo(const CO_IF_FRM& frame) const {
   };
   return std::none_of(std::begin(node_.Sdo), std::end(node_.Sdo), is_request) ||
          std::any_of(std::begin(objects_.rpdo), std::end(objects_.rpdo), is_rpdo) ||
-         node_.Sync.Identifier == frame.Identifier;
+         node_.Sync.Identifier == frame.Identifier || is_srdo(frame.Identifier);
 }
 
 void Network::look() {
@@ -347,6 +386,21 @@ void Network::set_time() {
 }
 
 void Network::send_time() { input_.flag() ? COTimeSend(&node_) : COTimeProduce(&node_, input_.byte()); }
+
+void Network::sign() {
+  for (std::uint8_t n = 0; n < std::size(objects_.srdo); ++n) {
+    COSrdoSignature(&node_, n, &objects_.srdo[n].signature);
+  }
+  objects_.srdo_valid = CO_SRDO_CONFIGURATION_VALID;
+}
+
+void Network::use_srdo() {
+  const std::uint8_t what = input_.byte();
+  what < 0x40 ? sign() : void(COSrdoRequest(&node_, std::uint8_t(what & 3U)));
+  COSrdoIsEstablished(&node_);
+}
+
+void Network::send_gfc() { COGfcSend(&node_); }
 
 void Network::use_leds() { input_.flag() ? COLedStart(&node_) : COLedSet(&node_, input_.byte(), input_.flag()); }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file node_network.hpp
-/// PDOs, SYNC, TIME, EMCY, error control and NMT of the node under test: their object dictionary entries, and the
-/// actions of an application and an NMT master.
+/// PDOs, SRDOs, GFC, SYNC, TIME, EMCY, error control and NMT of the node under test: their object dictionary entries,
+/// and the actions of an application and an NMT master.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,17 @@ struct PdoObjects {
   std::uint8_t start;
   std::uint8_t number;
   std::uint32_t map[8];
+};
+
+struct SrdoObjects {
+  std::uint8_t direction;
+  std::uint16_t cycle;
+  std::uint8_t validation;
+  std::uint8_t type;
+  std::uint32_t id[2];
+  std::uint8_t number;
+  std::uint32_t map[4];
+  std::uint16_t signature;
 };
 
 struct NetworkObjects {
@@ -56,6 +67,14 @@ struct NetworkObjects {
       {0x80000385, 254, 100, 30, 0, 1, {0x22000020}},
       {0x80000480, 252, 0, 0, 0, 0, {}},
   };
+  SrdoObjects srdo[2] = {
+      {CO_SRDO_RX, 50, 20, 254, {0x109, 0x10A}, 4, {0x23100108, 0x23110108, 0x23100308, 0x23110308}, 0},
+      {CO_SRDO_TX, 25, 20, 254, {0x10B, 0x10C}, 4, {0x23100208, 0x23110208, 0x23100308, 0x23110308}, 0},
+  };
+  std::uint8_t srdo_valid = CO_SRDO_CONFIGURATION_VALID;
+  std::uint8_t plain[2] = {1, 2};
+  std::uint8_t inverse[2] = {0xFE, 0xFD};
+  std::uint8_t gfc = 1;
 };
 
 void add_network(std::vector<CO_OBJ>& table, NetworkObjects& objects);
@@ -85,6 +104,11 @@ class Network {
   std::string fault_of(const CO_IF_FRM& frame) const;
   bool is_ours(const CO_IF_FRM& frame) const { return frame.Identifier == 0 || identifiers_.count(frame.Identifier); }
 
+  void use_srdo();
+  void send_gfc();
+  /// Makes the configuration of the SRDOs valid; it takes effect when the node enters Operational.
+  void sign();
+
   void forget() { objects_.startup = CO_NMT_STARTUP_STAY; }
 
  private:
@@ -108,6 +132,7 @@ class Network {
   void send_time();
   void use_leds();
 
+  static bool is_srdo(std::uint32_t identifier);
   bool is_tpdo(std::uint32_t identifier) const;
   std::uint32_t emcy_identifier() const;
   std::uint32_t any_value(unsigned size);

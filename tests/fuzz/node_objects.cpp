@@ -54,6 +54,15 @@ constexpr CO_OBJ_TYPE moody_type = {size_of_chance, nullptr, read, write, nullpt
 constexpr CO_OBJ_TYPE moody_stream_type = {size_of_chance, init, read, write, reset};
 constexpr CO_OBJ_TYPE empty_type = {nullptr, nullptr, nullptr, nullptr, nullptr};
 
+// A byte that an SRDO can map: its value depends on Data.
+std::uint32_t size_of_byte(CO_OBJ*, CO_NODE*, std::uint32_t) { return 1; }
+CO_ERR read_byte(CO_OBJ* obj, CO_NODE*, void* buffer, std::uint32_t size) {
+  std::memset(buffer, obj->Data == 0 ? 0x5A : 0xA5, size);
+  return mood();
+}
+CO_ERR write_byte(CO_OBJ*, CO_NODE*, void*, std::uint32_t) { return mood(); }
+constexpr CO_OBJ_TYPE byte_type = {size_of_byte, nullptr, read_byte, write_byte, nullptr};
+
 std::uint32_t size_of_source(CO_OBJ*, CO_NODE*, std::uint32_t width) {
   if (width == 0) {
     return source.is_read ? Source::bytes : CO_OBJ_SIZE_UNKNOWN;
@@ -180,6 +189,8 @@ std::vector<CO_OBJ> dictionary(Objects& o) {
       {CO_KEY(0x2200, 6, (holds_64_bits ? CO_OBJ_D_____ : 0U) | CO_OBJ____PRW), CO_TUNSIGNED64,
        holds_64_bits ? (CO_DATA)(7) : (CO_DATA)(&o.direct)},
       {CO_KEY(0x2200, 7, CO_OBJ_____RW), &source_type.Type, (CO_DATA)(1)},
+      {CO_KEY(0x2310, 3, CO_OBJ____PRW), &byte_type, (CO_DATA)(0)},
+      {CO_KEY(0x2311, 3, CO_OBJ____PRW), &byte_type, (CO_DATA)(1)},
   };
 #if USE_OD
   table.push_back({CO_KEY(0x2000, 14, CO_OBJ_____RW), OD_TSTREAM, (CO_DATA)(0)});

@@ -38,12 +38,13 @@ constexpr unsigned name_length = 12;  // characters of an input's name that pack
 
 constexpr std::uint32_t ticks_per_10_instructions = 256;  // -icount shift=10: 1024 ns each, at 25 MHz
 
-enum class Kind { nmt, sync, emcy, pdo, sdo, error_control, lss, other, error_frame, after_others, count };
+enum class Kind { nmt, sync, emcy, srdo, pdo, sdo, error_control, lss, other, error_frame, after_others, count };
 
 constexpr const char* names[] = {
     "NMT",
     "SYNC",
     "EMCY, TIME",
+    "GFC, SRDO",
     "PDO",
     "SDO",
     "error control",
@@ -62,9 +63,9 @@ Kind kind_of(std::uint32_t identifier) {
     return Kind::other;
   }
   switch (id >> 7) {
-    case 0: return id == 0 ? Kind::nmt : Kind::other;
+    case 0: return id == 0 ? Kind::nmt : id == 0x001 ? Kind::srdo : Kind::other;
     case 1: return id == 0x80 ? Kind::sync : Kind::emcy;
-    case 2: return Kind::emcy;
+    case 2: return id == 0x100 ? Kind::emcy : Kind::srdo;
     case 11:
     case 12:
     case 13: return Kind::sdo;  // 680h…: another server of the target
