@@ -29,8 +29,7 @@ constexpr unsigned service_rounds = 8;
 constexpr unsigned receive_places = 32;
 constexpr unsigned filter_number = 31;  // the last one passes all frames, without filters and while they change
 constexpr std::uint32_t no_answer = 0xFFFFFFFF;
-constexpr std::uint32_t used_interrupts =
-    interrupt_receive | interrupt_mode | interrupt_event | interrupt_overflow | interrupt_error;
+constexpr std::uint32_t used_interrupts = interrupt_receive | interrupt_mode | interrupt_event | interrupt_error;
 
 // SPI -----------------------------------------------------------------------------------------------------------------
 
@@ -96,9 +95,6 @@ class Queue {
       return {};
     }
     read_queue();
-    if (queue_[0] == no_answer) {
-      return {};
-    }
     const unsigned sent = take_events();
     if ((queue_[0] & requested) != 0) {
       return {sent, sent};
@@ -263,7 +259,7 @@ bool service_once(Can& can) {
   if ((flags & interrupt_mode) != 0 && can.IsBusOff == 0) {
     request_mode(can);
   }
-  if ((flags & (interrupt_receive | interrupt_overflow)) != 0) {
+  if ((flags & interrupt_receive) != 0) {
     receive(can);
   }
   if ((flags & interrupt_event) != 0) {
@@ -300,7 +296,7 @@ void reset_controller(const Can& can) {
   await_oscillator(can, oscillator_ready | (can.Clock & oscillator_pll) << pll_to_ready);
   write(can, event_control, objects(CO_MCP251XFD_QUEUE) | not_empty_enable);
   write(can, queue_control, objects(CO_MCP251XFD_QUEUE + 1));  // never full: its address changes with UINC only
-  write(can, receive_control, objects(receive_places) | overflow_enable | not_empty_enable);
+  write(can, receive_control, objects(receive_places) | not_empty_enable);
   write_byte(can, filter_control + filter_number, filter_to_fifo1);
 }
 

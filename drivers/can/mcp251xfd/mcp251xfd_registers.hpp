@@ -53,7 +53,6 @@ inline constexpr unsigned request_abort = 8;  ///< ABAT: aborts all messages tha
 inline constexpr std::uint32_t interrupt_receive = 1U << 1;
 inline constexpr std::uint32_t interrupt_mode = 1U << 3;  ///< MODIF: the mode has changed
 inline constexpr std::uint32_t interrupt_event = 1U << 4;
-inline constexpr std::uint32_t interrupt_overflow = 1U << 11;
 inline constexpr std::uint32_t interrupt_error = 1U << 13;  ///< CERRIF: the error state has changed
 /// \}
 
@@ -68,7 +67,6 @@ inline constexpr std::uint32_t diagnosis_recovered = std::uint32_t{1} << 23;  //
 /// \name C1TEFCON, C1TXQCON, C1FIFOCON1, and the same bits shifted for their byte 1
 /// \{
 constexpr std::uint32_t objects(unsigned number) { return (number - 1U) << 24; }  ///< FSIZE; PLSIZE 0: 8 bytes
-inline constexpr std::uint32_t overflow_enable = 1U << 3;                         ///< RXOVIE
 inline constexpr std::uint32_t not_empty_enable = 1U << 0;                        ///< TFNRFNIE, TEFNEIE
 inline constexpr std::uint32_t requested = 1U << 9;                               ///< TXREQ
 inline constexpr std::uint32_t resetting = 1U << 10;                              ///< FRESET; set in Configuration mode
