@@ -28,9 +28,8 @@
 ///   in bus-off they may be written after it. A change on the bus loses no frame that was received or accepted before.
 /// - Frames: transmit.hpp has is_extended() and length_of(), as a DLC may exceed 8. Remote frames have no data. Frames
 ///   of CAN FD are discarded. Frames of one identifier keep their order, also if there are several receive FIFOs.
-/// - Tests: a model in tests/drivers/models and a Kind in tests/drivers/controllers/bench.hpp, for which the cases of
-/// all controllers
-///   run. A controller behind SPI has its model behind the functions that access it.
+/// - Tests: a model in tests/drivers/models and a Kind in tests/drivers/controllers/bench.hpp, for which the cases
+///   of all controllers run. A controller behind SPI has its model behind the functions that access it.
 #ifndef CO_DRIVERS_CONTROLLER_HPP_
 #define CO_DRIVERS_CONTROLLER_HPP_
 

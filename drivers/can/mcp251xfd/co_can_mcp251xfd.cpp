@@ -225,17 +225,17 @@ void begin_bus_off(Can& can) {
   }
 }
 
+// Reads the error state. The diagnosis, which shows a bus-off that has ended since, is read first: what begins between
+// both readings is then seen in the error state.
 void read_errors(Can& can) {
   const bool was_bus_off = is_in_bus_off(can);
+  const bool is_diagnosed = (read(can, diagnosis) & diagnosis_bus_off) != 0;
   report::store(can.Errors, static_cast<std::uint8_t>(read(can, errors) >> 16 & (error_passive | error_bus_off)));
-  const bool is_recovered = !is_in_bus_off(can) && (read(can, diagnosis) & diagnosis_recovered) != 0;
-  if (is_recovered) {
-    write_byte(can, diagnosis + 2, 0);
-  }
-  if (!was_bus_off && (is_recovered || is_in_bus_off(can))) {
+  if (!was_bus_off && (is_diagnosed || is_in_bus_off(can))) {
     begin_bus_off(can);
   }
-  if (is_recovered && !is_in_bus_off(can)) {
+  if ((was_bus_off || is_diagnosed) && !is_in_bus_off(can)) {
+    write_byte(can, diagnosis + 2, 0);
     finish(can);
   }
 }
@@ -344,10 +344,12 @@ struct Port {
     return !is_in_bus_off(can) && transmit::accept(can.Transmit, queue, frame);
   }
 
-  // Empties receive FIFO and queue. SPI is held, so no interrupt stores a frame meanwhile.
+  // Empties receive FIFO and queue, and forgets a bus-off that has ended. SPI is held, so no interrupt stores a frame
+  // meanwhile.
   static void discard_received(Can& can) {
     write_byte(can, receive_control + 1, byte_reset);
     write_byte(can, receive_status, 0);
+    write_byte(can, diagnosis + 2, 0);
     static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
     report::restart(can.Report);
   }

@@ -62,7 +62,7 @@ inline constexpr unsigned error_passive = 0x18;  ///< RXBP, TXBP
 inline constexpr unsigned error_bus_off = 0x20;  ///< TXBO
 /// \}
 
-inline constexpr std::uint32_t diagnosis_recovered = std::uint32_t{1} << 23;  ///< C1BDIAG1.TXBOERR: a bus-off has ended
+inline constexpr std::uint32_t diagnosis_bus_off = 1U << 23;  ///< C1BDIAG1.TXBOERR
 
 /// \name C1TEFCON, C1TXQCON, C1FIFOCON1, and the same bits shifted for their byte 1
 /// \{

@@ -415,6 +415,7 @@ class Mcp251xfdController : public SpiBase<Mcp251xfd, CO_CAN_MCP251XFD> {
     Mcp251xfd::Options result;
     result.oscillator = crystal_of(options, 40'000'000);
     result.keeps_messages_in_bus_off = options.keeps_messages_in_bus_off;
+    result.flags_begin_of_bus_off = options.flags_begin_of_bus_off;
     result.is_2517 = options.number != 0;
     result.start_up_reads = 3;
     return result;

@@ -73,6 +73,7 @@ struct ControllerOptions {
   bool has_interrupt_pin = true;           ///< behind SPI: the driver can read the pin INT
   bool is_error_flag_sticky = false;       ///< Mcp2515::Options
   bool keeps_messages_in_bus_off = false;  ///< Mcp251xfd::Options
+  bool flags_begin_of_bus_off = false;     ///< Mcp251xfd::Options
   BxcanOptions bxcan;
 };
 

@@ -152,6 +152,7 @@ TEST_CASE("MCP251xFD: works without interrupts, with and without the level of IN
       ControllerOptions options;
       options.has_interrupt_pin = has_pin;
       options.keeps_messages_in_bus_off = keeps;
+      options.flags_begin_of_bus_off = has_pin != keeps;
       options.recovery = CO_CAN_RECOVERY_AUTOMATIC;
       Controller& can = bench.add(Kind::mcp251xfd, options);
       Texts heard;
@@ -184,6 +185,17 @@ TEST_CASE("MCP251xFD: works without interrupts, with and without the level of IN
       can.node().set_counters(130, 0);  // a further event reports no bus-off again
       bench.run(20);
       CHECK(can.read_all() == Texts{"20000204#0030000000008200"});
+      drive_to_bus_off(bench, can);  // and Reset after the recovery: the bus-off is forgotten
+      CHECK(bench.run_until([&] { return !can.is_off_bus(); }));
+      can.reset();
+      bench.run(20);
+      can.node().set_counters(0, 0);
+      bench.run(20);
+      can.node().set_counters(130, 0);
+      bench.run(20);
+      for (const std::string& text : can.read_all()) {
+        CHECK(text.substr(5, 3) != "240");
+      }
     }
   }
 }

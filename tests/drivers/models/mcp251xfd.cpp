@@ -424,8 +424,6 @@ void Mcp251xfd::enter(Mode mode) {
     }
     return;
   }
-  word(bdiag0) = 0;
-  word(bdiag1) = 0;
   check_timing();
   allocate();
 }
@@ -484,7 +482,7 @@ void Mcp251xfd::on_counters() {
   if ((changed & (txbp | rxbp | txbo)) != 0 || (changed & state & (txwarn | rxwarn)) != 0) {
     word(interrupts) |= cerrif;
   }
-  if ((changed & before & txbo) != 0) {
+  if ((changed & (options_.flags_begin_of_bus_off ? state : before) & txbo) != 0) {
     word(bdiag1) |= txboerr;
   }
   if ((changed & state & txbo) != 0 && !options_.keeps_messages_in_bus_off) {

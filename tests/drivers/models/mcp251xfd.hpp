@@ -23,6 +23,7 @@ class Mcp251xfd : public SpiModel, private CanClient {
     unsigned start_up_reads = 0;
     /// Pending messages stay pending in bus-off. Otherwise bus-off resets all transmit FIFOs, as chapter 11 says.
     bool keeps_messages_in_bus_off = false;
+    bool flags_begin_of_bus_off = false;  ///< C1BDIAG1.TXBOERR is set when bus-off begins, not when it ends
     std::string name = "mcp251xfd";
   };
 
