@@ -139,8 +139,16 @@ int run(Host& bus, bool serve) {
     COSrdoRequest(&button.stack(), 0);  // COSrdoChange() reports an error
     loop.run_until(control_motor, 220 * millisecond);
   }
+  if (loop.interrupted()) {
+    std::fputs(host->bus_fault().c_str(), stderr);
+    return exit_interrupted;
+  }
+  if (motor_runs) {
+    print("the motor has not stopped");
+    return exit_failed;
+  }
   print(text("the motor was off %.1f ms after the fault", static_cast<double>(changed - pressed) / millisecond));
-  return starts == 2 && !motor_runs && COSrdoGetState(&drive.stack(), 0) == CO_SRDO_ERR_SCT ? exit_ok : exit_failed;
+  return starts == 2 && COSrdoGetState(&drive.stack(), 0) == CO_SRDO_ERR_SCT ? exit_ok : exit_failed;
 }
 
 }  // namespace

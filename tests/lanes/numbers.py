@@ -3,7 +3,7 @@
 """Compares measured numbers with the committed ones, and the table of a page with these.
 
 A measured number is a line "name<TAB>number", or "name<TAB>number<TAB>remark". The committed numbers are lines
-"name | number of each column | budget of each column | remark". Budgets are written by hand; --update writes the rest.
+"name | number of each column | limit of each column | remark". Limits are written by hand; --update writes the rest.
 Numbers of other stacks, written by hand, are lines "name | column | number of each stack" of a file whose line
 "# stacks | name of each" names them.
 Prints "1..N" and N lines "ok …" or "not ok …"; what another compiler has made is "ok … # SKIP".
@@ -14,9 +14,9 @@ import sys
 from pathlib import Path
 
 HEAD = """\
-# {title} of {page}. tests/run --update-numbers writes the numbers; budgets are written by hand.
+# {title} of {page}. tests/run --update-numbers writes the numbers; limits are written by hand.
 # compilers | {compilers}
-# {title} | {columns} | budget of each, where there is one | remark
+# {title} | {columns} | limit of each, where there is one | remark
 """
 
 
@@ -37,14 +37,14 @@ class Column:
 class Row:
     """A line of the committed numbers. Numbers are texts; "" is none."""
 
-    def __init__(self, name, numbers, budgets, remark):
+    def __init__(self, name, numbers, limits, remark):
         self.name = name
         self.numbers = numbers
-        self.budgets = budgets
+        self.limits = limits
         self.remark = remark
 
     def line(self):
-        return " | ".join([self.name, *self.numbers, *self.budgets, self.remark]).rstrip(" |") + "\n"
+        return " | ".join([self.name, *self.numbers, *self.limits, self.remark]).rstrip(" |") + "\n"
 
 
 class Stacks:
@@ -98,12 +98,12 @@ class Report:
 
     def table(self):
         rows = list(self.committed.rows.values())
-        with_budgets = [any(row.budgets[number] for row in rows) for number in range(len(self.columns))]
+        with_limits = [any(row.limits[number] for row in rows) for number in range(len(self.columns))]
         with_stacks = [self.stacks.know(column.title) for column in self.columns]
         with_remarks = any(row.remark for row in rows)
         heads = [self.arguments.title]
-        for column, has_budgets, has_stacks in zip(self.columns, with_budgets, with_stacks):
-            heads += [column.title] + [self.arguments.limits or "budget"] * has_budgets + self.stacks.names * has_stacks
+        for column, has_limits, has_stacks in zip(self.columns, with_limits, with_stacks):
+            heads += [column.title] + [self.arguments.limits] * has_limits + self.stacks.names * has_stacks
         marks = ["---"] + ["---:"] * (len(heads) - 1)
         if with_remarks:
             heads.append(self.arguments.remark)
@@ -112,7 +112,7 @@ class Report:
         for row in rows:
             cells = [row.name]
             for number, column in enumerate(self.columns):
-                cells += [row.numbers[number]] + [row.budgets[number]] * with_budgets[number]
+                cells += [row.numbers[number]] + [row.limits[number]] * with_limits[number]
                 cells += self.stacks.of(row.name, column.title) * with_stacks[number]
             cells += [row.remark] if with_remarks else []
             lines.append("|" + "".join(f" {cell} |" if cell else " |" for cell in cells))
@@ -129,14 +129,14 @@ class Report:
     # Update -------------------------------------------------------------------------------------------------------
 
     def update(self):
-        """The measured names in their order, with the budgets that are committed."""
+        """The measured names in their order, with the limits that are committed."""
         before, self.committed.rows = self.committed.rows, {}
         self.committed.compilers = [column.compiler for column in self.columns]
         for name in self.names_of_columns():
-            budgets = before[name].budgets if name in before else [""] * len(self.columns)
+            limits = before[name].limits if name in before else [""] * len(self.columns)
             numbers = [column.numbers.get(name, "") for column in self.columns]
             remarks = [column.remarks[name] for column in self.columns if column.remarks.get(name)]
-            self.committed.rows[name] = Row(name, numbers, budgets, remarks[0] if remarks else "")
+            self.committed.rows[name] = Row(name, numbers, limits, remarks[0] if remarks else "")
         head = HEAD.format(
             title=self.arguments.title,
             page=f"{self.arguments.page.parent.name}/{self.arguments.page.name}",
@@ -167,8 +167,8 @@ class Report:
                 what = f"{name}, {column.title}"
                 if is_comparable:
                     yield self.verdict(what, before, now)
-                    if self.arguments.limits and now and row and row.budgets[number]:
-                        yield self.within_limit(what, row.budgets[number], now)
+                    if self.arguments.limits and now and row and row.limits[number]:
+                        yield self.within_limit(what, row.limits[number], now)
                 else:
                     yield True, f"{what} # SKIP what is committed is not of {column.compiler}"
         page = self.arguments.page.read_text(encoding="utf-8")
@@ -212,7 +212,7 @@ def main():
     parser.add_argument("--percent", type=float, default=0, help="how much a number may grow …")
     parser.add_argument("--slack", type=float, default=0, help="… if that is more than this")
     parser.add_argument("--column", nargs="+", action="append", required=True, help="title, compiler, measured files")
-    parser.add_argument("--limits", default="", help="title of the budgets, which then bind: no number may exceed its own")
+    parser.add_argument("--limits", default="", help="title of the limits, which then bind: no number may exceed its own")
     parser.add_argument("--update", action="store_true", help="write numbers and table first")
     report = Report(parser.parse_args())
     if report.arguments.update:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="SDO: pairs and triples of faults in transfers; the server against its model with all pairs and triples of requests from every state and 20 million random ones; gcc -O2"
+minutes=90
 packages=("${build_packages[@]}")
 
 lane() {
@@ -13,7 +14,7 @@ walk() {
   LEXICAN_SDO_WALK=all run_doctest sdo_walk "$build/sdo-walk/tests/lexican_tests" -tc='machine walk: SDO*'
 }
 
-# Runs the complete sweep of faults twice; the second build's server has blocks of 8 segments.
+# Runs the faults twice; the second build's server has blocks of 8 segments.
 faults() {
   local small=-DCO_SDO_BUF_SEG=8
   build_preset release sdo-faults -DLEXICAN_TEST_FILES=sdo_fault || return

@@ -11,6 +11,11 @@ packages+=(g++-powerpc-linux-gnu=powerpc-linux-gnu-g++ qemu-user-static=qemu-ppc
 # The Cortex-M0 has the configuration slave, the other CPUs full. Runs the code for a Cortex-M0 on a Cortex-M3, which
 # has enough memory and, like a Cortex-M0, faults on unaligned accesses.
 lane() {
+  usual_cores
+  [ -z "$all" ] || further_cores
+}
+
+usual_cores() {
   arm_tree cortex-m0 -DLEXICAN_PRESET=slave || return
   fault_on cortex-m0 mps2-an385
   on_board cortex-m0 mps2-an385
@@ -22,7 +27,6 @@ lane() {
   linux_tree powerpc && on_linux powerpc qemu-ppc-static
   local targets=(lexican_smoke_virt)
   riscv_tree rv32imac && smoke_on rv32imac virt
-  [ -z "$all" ] || further_cores
 }
 
 further_cores() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the driver of the CAN controllers. QEMU's model has no arbitration, errors or bit rates: bus-off, error
-// passive, and a frame that overtakes one that has lost the arbitration are tested in tests/unit.
+// passive, and a frame that overtakes one that has lost the arbitration are tested in tests/drivers/unit.
 #include "bus.hpp"
 #include "cases.hpp"
 #include "machine.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Types with Begin and End (CO_OBJ_TYPE_EX): order and arguments of their functions in transfers that succeed.
-// Failed transfers are in sdo_stream_ends_test.cpp.
 #include <algorithm>
 
 #include "support/block_frames.hpp"

@@ -43,7 +43,7 @@ struct FaultyTransfer {
 FaultyTransfer disturb(SdoPair& pair, Direction direction, const FaultsAtFrames& faults,
                        Milliseconds time_out = Milliseconds{1000});
 
-/// Returns true if the environment variable LEXICAN_SDO_FAULTS is "all": exhaustive tests, for the lane sdo.
+/// Returns true if the environment variable LEXICAN_SDO_FAULTS is "all": many more faults, for the lane sdo.
 bool all_faults();
 
 }  // namespace test

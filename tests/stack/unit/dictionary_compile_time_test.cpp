@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks of a dictionary at compile time. Most of them are static assertions of this file; sources that must not
-// compile are in tests/failing_builds.
+// compile are in tests/stack/failing_builds.
 
 // The dictionary contains C casts, as in firmware.
 #pragma GCC diagnostic ignored "-Wold-style-cast"
