@@ -11,7 +11,7 @@ from collections import Counter
 from pathlib import Path
 
 KEPT = re.compile(r"\.(text|rodata|srodata|data|sdata)\b")
-OF_LIBRARY = re.compile(r"/lexican\w*\.dir/(?:__/__/src/)?(.+)$")
+OF_LIBRARY = re.compile(r"/lexican\w*\.dir/(?:(?:__/)+src/)?(.+)$")
 # " .section 0xaddress 0xsize file"; a long name has a line of its own
 PIECE = re.compile(r"^ (\S+)\s+0x[0-9a-f]+\s+0x([0-9a-f]+) (\S+)$")
 
