@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-about="instructions of operations on Cortex-M3, Cortex-M0+ (emulated) and the host, and of the worst frame; compared with docs/speed.md"
-minutes=1
-packages=(cmake ninja-build=ninja g++ valgrind "${arm_packages[@]}" qemu-system-arm python3)
+about="instructions of operations on Cortex-M3, Cortex-M0+ (emulated) and the host, of CAN drivers, and of the worst frame; compared with docs/speed.md"
+minutes=2
+packages=("${build_packages[@]}" valgrind "${arm_packages[@]}" qemu-system-arm python3)
 
 lane() {
   build_library m3 -O2 -DLEXICAN_BENCH=ON -DLEXICAN_FRAME_BOUND=ON -DLEXICAN_CPU=cortex-m3 \
     -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/arm-none-eabi.cmake" || return
   count_operations
+  count_drivers
   count_worst_frame
 }
 
+arm="arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion 2>/dev/null)"
+host="$(g++ -dumpmachine 2>/dev/null)-g++ $(g++ -dumpfullversion 2>/dev/null)"
+
 count_operations() {
   count_on_arm m3 && build_m0plus_programs && count_on_arm m0plus && count_on_host || return
-  local of=$results/instructions arm host
-  arm="arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion)"
-  host="$(g++ -dumpmachine)-g++ $(g++ -dumpfullversion)"
+  local of=$results/instructions
   report_operations instructions stacks \
     --column "Cortex-M3 -O2" "$arm" "$of-m3-lexican" "$of-m3-lexican_many_pdos" "$of-m3-lexican_od" \
     --column "Cortex-M3 -O2, features of the others" "$arm" "$of-m3-lexican_others_features-stacks" \
@@ -72,6 +74,25 @@ count_on_host() {
   done
 }
 
+# Counts the instructions of the drivers for CAN controllers on the models of these (tests/drivers/controllers/costs.cpp).
+count_drivers() {
+  local targets=(lexican_driver_costs) of=$results/callgrind-drivers direction columns=()
+  build_preset release || return
+  rm -f "$of".[0-9]*
+  run_counting "$of.reports" timeout 300 valgrind --quiet --tool=callgrind --compress-strings=no \
+    --callgrind-out-file="$of" "$build/release/tests/drivers/controllers/lexican_driver_costs" &&
+    run_counting "$of.counts" python3 "$root/tests/numbers/bench/callgrind/read.py" --only '/drivers/can/|fn=CORing' \
+      "$of.reports" "$of".[0-9]* || return
+  for direction in received sent; do
+    sed -n "s/, $direction\t/\t/p" "$of.counts" >"$of-$direction"
+    sed -n "s/, $direction\t.*\t/\t/p" "$of.reports" >"$of-$direction-accesses"
+    columns+=(--column "$direction, instructions" "$host" "$of-$direction"
+      --column "$direction, accesses" "$host" "$of-$direction-accesses")
+  done
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/numbers/bench/drivers.txt" \
+    --page "$root/docs/speed.md" --table drivers --title controller --percent 3 "${columns[@]}"
+}
+
 run_counting() {  # RESULT COMMAND...
   local result=$1
   shift
@@ -91,7 +112,7 @@ count_worst_frame() {
   worst_of "${measured[@]}" >"$of"
   run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/numbers/frame_bound/bounds.txt" \
     --page "$root/docs/speed.md" --table frame_bound --title frame --remark "the worst" --percent 3 \
-    --column "instructions" "arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion)" "$of"
+    --column "instructions" "$arm" "$of"
 }
 
 # Prints the line with the largest number for each name, in the order of the first file.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="flash and RAM of nodes, modules and each additional object, stack depth of functions; compared with docs/sizes.md"
+about="flash and RAM of nodes, modules, drivers and each additional object, stack depth of functions; compared with docs/sizes.md"
 minutes=2
 packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}" gcc-riscv64-unknown-elf=riscv64-unknown-elf-g++
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/lib/libc.a)
@@ -11,11 +11,13 @@ lane() {
   local cpu preset
   for cpu in rv32 m4 m0plus; do
     choose_cpu $cpu
-    build_library "sizes-$cpu" "-Os ${lto[*]}" -DLEXICAN_SIZES=ON "${configure[@]}" || return
+    build_library "sizes-$cpu" "-Os ${lto[*]}" -DLEXICAN_SIZES=ON -DLEXICAN_DRIVERS=ON "${configure[@]}" || return
     rm -f "$of-$cpu" "$of-$cpu-lto"
     for preset in "${presets[@]}"; do
       size_of_node $cpu "$preset" || return
     done
+    rm -f "$of-$cpu-drivers" "$of-$cpu-drivers-ram"
+    size_of_drivers || return
   done
   sizes_of_one_file
   size_of_memory && size_of_things || return
@@ -23,6 +25,7 @@ lane() {
   report_modules
   report_memory
   report_things
+  report_drivers
   self_test
   stack_depths
 }
@@ -111,7 +114,7 @@ size_with_classic_drivers() {  # CPU PRESET
 
 # Prints the objects of a library, in the order of their sources.
 objects_of() {  # TREE/LIBRARY
-  sed -n 's,/[.]/,/,; s,.*[.]dir/\(__/__/src/\)*\(.*\),\2 &,p' "$build/$1.objects" | sort | cut -d ' ' -f 2
+  sed -n 's,/[.]/,/,; s,.*[.]dir/\(\(__/\)*src/\)*\(.*\),\3 &,p' "$build/$1.objects" | sort | cut -d ' ' -f 2
 }
 
 # Links a program. With EVERYTHING all functions that an application may call are kept.
@@ -122,6 +125,43 @@ link_node() {  # TREE/LIBRARY PROGRAM EVERYTHING FLAG...: links PROGRAM.o
     awk '$1 ~ /^(CO|OD)/ && $2 ~ /^[TRD]$/ { print "-Wl,--undefined=" $1 }' | sort)
   "${compile[@]}" "${specs[@]}" -o "$2" "${@:4}" "$2.o" "${objects[@]}" "${keep[@]}" -nostartfiles -Wl,--gc-sections \
     -Wl,-e,main >"$of.log" 2>&1
+}
+
+size_of_drivers() {  # of $cpu
+  driver "CAN: bxCAN" can/bxcan co_can_bxcan Bxcan CO_CAN_BXCAN &&
+    driver "CAN: FDCAN" can/fdcan co_can_fdcan Fdcan CO_CAN_FDCAN &&
+    driver "CAN: M_CAN" can/fdcan co_can_fdcan Mcan CO_CAN_FDCAN &&
+    driver "CAN: FlexCAN" can/flexcan co_can_flexcan Flexcan CO_CAN_FLEXCAN &&
+    driver "CAN: SJA1000" can/sja1000 co_can_sja1000 Sja1000 CO_CAN_SJA1000 &&
+    driver "CAN: TWAI" can/sja1000 co_can_twai Twai CO_CAN_TWAI &&
+    driver "CAN: MCP2515" can/mcp2515 co_can_mcp2515 Mcp2515 CO_CAN_MCP2515 &&
+    driver "CAN: MCP251xFD" can/mcp251xfd co_can_mcp251xfd Mcp251xfd CO_CAN_MCP251XFD &&
+    driver "CAN: ZynqMP" can/zynqmp co_can_zynqmp Zynqmp CO_CAN_ZYNQMP &&
+    driver "CAN: slcan" can/slcan co_slcan Slcan CO_SLCAN &&
+    driver "memory: flash_pages" nvm/flash_pages co_nvm_flash_pages FlashPages &&
+    driver "memory: eeprom_i2c" nvm/eeprom_i2c co_nvm_eeprom_i2c EepromI2c &&
+    driver "memory: eeprom_spi" nvm/eeprom_spi co_nvm_eeprom_spi EepromSpi &&
+    driver "memory: ram" nvm/ram co_nvm_ram Ram CO_NVM_RAM &&
+    driver "timer: stm32_tim" timer/stm32_tim co_timer_stm32_tim Stm32Tim CO_STM32_TIM &&
+    driver "timer: SysTick" timer/tickless co_timer_systick SysTick CO_SYSTICK &&
+    driver "timer: mtime" timer/tickless co_timer_mtime Mtime CO_MTIME &&
+    driver "timer: nRF51" timer/tickless co_timer_nrf51 Nrf51 CO_NRF51_TIMER &&
+    driver "timer: software" timer/software co_timer_software SoftwareTimer
+}
+
+# Links the source files of a driver whose public names match, those that they use, and a context.
+driver() {  # NAME DIRECTORY HEADER NAMES [CONTEXT]
+  local library=$build/sizes-$cpu/drivers/liblexican_${2/\//_}.a keep
+  mapfile -t keep < <("$tools-nm" -fposix "$library" 2>/dev/null |
+    awk -v of="$4" '$1 ~ of && $1 !~ /^_/ && $2 ~ /^[TRD]$/ { print "-Wl,--undefined=" $1 }')
+  printf '#include "%s.h"\n%s\n' "$3" "${5:+$5 context;}" >"$of-driver.c"
+  "${compile[@]}" -Wall -Werror -std=c11 -I "$root/include" -I "$root/config" -I "$root/drivers/${2%/*}" -I "$root/drivers/$2" \
+    -c "$of-driver.c" -o "$of-context.o" >"$of.log" 2>&1 &&
+    "${compile[@]/--specs=*/-r}" -r -nostdlib -fno-lto "${keep[@]}" "$of-context.o" "$library" \
+      -o "$of-driver.o" >"$of.log" 2>&1 || { fail "link of the driver $1, $cpu" "$of.log"; return 1; }
+  "$tools-size" -A "$of-driver.o" | awk -v name="$1" -v file="$of-$cpu-drivers" '
+    $1 ~ /^[.]s?(text|rodata|data)/ { flash += $2 } $1 ~ /^[.]s?(data|bss)/ { ram += $2 }
+    END { print name "\t" flash >>file; print name "\t" ram + 0 >>(file "-ram") }'
 }
 
 size_lines() {  # WHAT PROGRAM [BYTES-OF-ALL-MODULES]
@@ -231,6 +271,12 @@ report_memory() {
 
 report_things() {
   report things "one more" --column "flash" "$arm" "$of-things-flash" --column "RAM" "$arm" "$of-things-ram"
+}
+
+report_drivers() {
+  report drivers "driver" --percent 1 --slack 16 --column "Cortex-M0+" "$arm" "$of-m0plus-drivers" \
+    --column "Cortex-M4" "$arm" "$of-m4-drivers" --column "rv32imac" "$riscv" "$of-rv32-drivers" \
+    --column "RAM" "$arm" "$of-m0plus-drivers-ram"
 }
 
 # Evaluates the functions of the C run time, too, which a program with the whole library contains.

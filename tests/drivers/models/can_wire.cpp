@@ -90,6 +90,7 @@ std::size_t CanWire::errors(CanError error) const {
 }
 
 void CanWire::count_access() {
+  ++all_accesses_;
   if (accesses_per_bit != 0 && ++accesses_ >= accesses_per_bit) {
     accesses_ = 0;
     advance(1);

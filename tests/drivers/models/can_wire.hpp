@@ -238,8 +238,10 @@ class CanWire {
   std::uint32_t bit_rate = 0;
   /// Number of register accesses of all models that take one bit time; 0: accesses take no time.
   unsigned accesses_per_bit = 0;
-  /// Called by models before each register access.
+  /// Called by models before each register access, and before each byte on SPI.
   void count_access();
+  /// Returns the number of these since the beginning.
+  std::uint64_t accesses() const { return all_accesses_; }
 
  private:
   friend class CanNode;
@@ -262,7 +264,8 @@ class CanWire {
   std::optional<bool> held_;
   std::uint64_t now_ = 0;
   std::uint64_t last_start_ = ~std::uint64_t{0};
-  unsigned accesses_ = 0;
+  unsigned accesses_ = 0;  // since the last bit that they have advanced
+  std::uint64_t all_accesses_ = 0;
   bool level_ = recessive;
 };
 
