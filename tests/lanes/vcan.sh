@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the demo node and master on a real SocketCAN bus: a Debian kernel in QEMU; also with can-utils and python-can"
+about="the demo node and master on a real SocketCAN bus: a Debian kernel in QEMU; also with can-utils and python-can; SJA1000 on QEMU's cards"
 minutes=3
 packages=("${build_packages[@]}" "${tool_packages[@]}" "${arm_packages[@]}" qemu-system-x86=qemu-system-x86_64 can-utils=candump iproute2=ip busybox-static=busybox
   cpio kmod=modprobe python3 python3-can=/usr/lib/python3/dist-packages/can/interface.py)
@@ -7,17 +7,13 @@ optional=yes
 waiting=yes
 
 lane() {
-  local check=$results/driver_check_socketcan
-  local codict demo targets=(lexican_bus_tests)
+  local codict demo targets=(lexican_bus_tests driver_check_socketcan lexican_sja1000_card)
   host_demo && build_preset release || return
-  driver_check "$check" >"$results/driver_check_socketcan.log" 2>&1 || {
-    fail "build of the driver check" "$results/driver_check_socketcan.log"
-    return
-  }
   heater >"$results/heater.log" 2>&1 || { fail "build of demo/heater" "$results/heater.log"; return; }
   python3 "$root/tests/programs/commands/commands.py" "$root" vcan >"$results/vcan.commands"  # in place of run_pages
   run_tap "$root/tests/drivers/vcan/run" "$demo/linux_node/lexican-demo-node" "$demo/linux_master/lexican-demo-master" \
-    "$build/release/tests/lexican_bus_tests" "$check" "$build/heater/heater" \
+    "$build/release/tests/lexican_bus_tests" "$build/release/tests/drivers/driver_check/driver_check_socketcan" \
+    "$build/release/tests/lexican_sja1000_card" "$build/heater/heater" \
     "$demo/srdo/lexican-demo-srdo" "$results/vcan.commands"
 }
 
@@ -26,15 +22,4 @@ heater() {
   host_codict && cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja -DLEXICAN_CODICT="$codict" \
     -DLEXICAN_WARNINGS_AS_ERRORS=ON &&
     cmake --build "$build/heater"
-}
-
-driver_check() {  # PROGRAM
-  local from=$root/tests/drivers/driver_check includes=(-I "$root/include" -I "$root/config" -I "$root/tests/drivers/driver_check"
-    -I "$root/drivers/can/socketcan") source objects=()
-  for source in "$from"/driver_check*.c; do
-    objects+=("$1-$(basename "$source").o")
-    gcc -std=c11 -O2 -Wall -Wextra -Werror "${includes[@]}" -c "$source" -o "${objects[-1]}" || return
-  done
-  g++ -std=c++17 -O2 -Wall -Wextra -Werror "${includes[@]}" "$from/host/socketcan.cpp" "${objects[@]}" \
-    "$build/release/drivers/liblexican_can_socketcan.a" "$build/release/src/liblexican.a" -o "$1"
 }

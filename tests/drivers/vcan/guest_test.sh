@@ -4,6 +4,7 @@
 # 301 specifies, in candump's notation.
 
 node=lexican-demo-node
+can=vcan0 node_id=5
 latest_heartbeat=50000  # ticks of the node, which are microseconds: 5 % of its heartbeat time
 master=lexican-demo-master
 heartbeat=705 request=605 response=585 emcy=085 tpdo=185 rpdo=205 sync=080  # of node-ID 5
@@ -26,7 +27,7 @@ listen() {  # "CAN-ID..." NUMBER [MILLISECONDS]
   others=$(listeners "${1##* }")
   filters=
   for id in $1; do filters=$filters,$id:C00007FF; done
-  candump -L "vcan0$filters" -r 8000000 -n "$2" -T "${3:-5000}" >/tmp/heard &
+  candump -L "$can$filters" -r 8000000 -n "$2" -T "${3:-5000}" >/tmp/heard &
   listener=$!
   tries=500
   until [ "$(listeners "${1##* }")" -gt "$others" ] || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
@@ -44,19 +45,19 @@ expect() {  # NAME EXPECTED-PATTERN
 
 sdo() {  # NAME REQUEST RESPONSE
   listen $response 1
-  cansend vcan0 "$request#$2"
+  cansend $can "$request#$2"
   expect "$1" "$response#$3"
 }
 
 silence() {  # NAME FRAME
   listen $response 1 500
-  cansend vcan0 "$2"
+  cansend $can "$2"
   expect "$1" ""
 }
 
 # Sends an NMT command, and waits 200 ms: heartbeats sent before it takes effect have the old state.
 nmt() {  # NAME COMMAND STATE
-  cansend vcan0 "000#$2"
+  cansend $can "000#$2"
   usleep 200000
   listen $heartbeat 1
   expect "$1" "$heartbeat#$3"
@@ -65,7 +66,7 @@ nmt() {  # NAME COMMAND STATE
 # Expects one boot-up message among the heartbeats.
 reboot() {  # NAME COMMAND
   listen $heartbeat 2
-  cansend vcan0 "000#$2"
+  cansend $can "000#$2"
   expect "$1" "*$heartbeat#00*"
 }
 
@@ -88,7 +89,7 @@ period() {  # NAME MINIMUM MAXIMUM (ms), of the heartbeat
 says() {  # NAME OUTPUT ARGUMENT...
   name=$1 expected=$2
   shift 2
-  got=$($master --node 5 "$@" 2>/tmp/said)
+  got=$($master --can $can --node $node_id "$@" 2>/tmp/said)
   status=$?
   [ $status -eq 0 ] && [ "$got" = "$expected" ]
   verdict $? "$name" "expected '$expected', got '$got', status $status $(cat /tmp/said)"
@@ -226,7 +227,7 @@ sdo "TPDO1 when the time changes" 2F001802FF000000 6000180200000000
 guard() {  # NAME EXPECTED-PATTERN: answers to four requests
   listen $heartbeat 4 1000
   for n in 1 2 3 4; do
-    cansend vcan0 $heartbeat#R
+    cansend $can $heartbeat#R
     usleep 100000
   done
   expect "$1" "$2"
@@ -508,6 +509,50 @@ wait $server
 verdict $? "SRDO: SIGTERM ends the nodes with status 0" "status $?"
 lexican-demo-srdo --can vcan0 >/tmp/trace 2>&1
 verdict $? "SRDO: the motor stops when the button is pressed and when its contact fails" "$(cat /tmp/trace)"
+
+# --- The driver of SJA1000 on a PCI card of QEMU; the other end is the kernel's driver on a second card.
+
+can=can0 node_id=10 request=60A response=58A heartbeat=70A emcy=08A
+card=/sys/bus/pci/devices/0000:00:11.0/resource1
+
+sja1000_card $card $can >/tmp/check
+verdict $? "SJA1000: driver check, the kernel's driver as peer" "$(grep -v ^ok /tmp/check | head -n 3)"
+listen $heartbeat 2
+sja1000_card $card 10 >/tmp/trace &
+server=$!
+expect "SJA1000: boot-up, then a heartbeat" "$heartbeat#00 $heartbeat#7F"
+period "SJA1000: a heartbeat each second" 950 1050
+sdo "SJA1000: vendor-ID" 4018100100000000 4318100178563412
+silence "SJA1000: a request with an extended identifier is not answered" "00000$request#4018100100000000"
+silence "SJA1000: a request to another node is not answered" 60B#4018100100000000
+nmt "SJA1000: NMT start: operational" 010A 05
+reboot "SJA1000: NMT reset node: boot-up" 810A
+reboot "SJA1000: NMT reset communication: boot-up" 820A
+sdo "SJA1000: no heartbeat" 2B17100000000000 6017100000000000
+guard "SJA1000: node guarding, by remote frames" "$heartbeat#7F $heartbeat#FF $heartbeat#7F $heartbeat#FF"
+sdo "SJA1000: the heartbeat of node 11 passes the filter from now on" 231610012C010B00 6016100100000000
+listen $emcy 1
+cansend $can 70B#05
+expect "SJA1000: EMCY 8130h when a second heartbeat of node 11 is missing" "$emcy#308111*"
+
+# The kernel sends the segments of a block without a pause: more frames than fit in the FIFO.
+dd if=/dev/urandom of=/tmp/text bs=200 count=1 2>/dev/null
+listen $response 1
+says "SJA1000: 200 bytes written" "" --index 0x2000 --file /tmp/text write
+expect "SJA1000: by block download" "$response#A4002000*"
+listen $response 1
+says "SJA1000: 200 bytes read" "" --index 0x2000 --file /tmp/text_back read
+expect "SJA1000: by block upload" "$response#C6002000*"
+cmp /tmp/text /tmp/text_back
+verdict $? "SJA1000: every byte is read back" "$(ls -l /tmp/text /tmp/text_back)"
+overflows=$($master --can $can --node $node_id --index 0x2001 --type u32 read 2>&1)
+[ "$overflows" -gt 0 ]
+verdict $? "SJA1000: overflows of the FIFO in the block download were counted" "got '$overflows'"
+cangen $can -g 0 -p 10 -n 2000 -I 70B -L 8
+got=$($master --can $can --node $node_id --index 0x2001 --type u32 read 2>&1)
+[ "$got" -gt "$overflows" ]
+verdict $? "SJA1000: and in a flood of 2000 frames, after which the node answers" "got '$got' after '$overflows'"
+kill $server
 
 lexican_bus_tests >/tmp/socketcan 2>&1
 summary=$(grep "test cases:" /tmp/socketcan)
