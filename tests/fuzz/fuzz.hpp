@@ -58,7 +58,8 @@ class Aside {
   Input& input_;
 };
 
-/// The frame that the target gives to the node, for tests/numbers/frame_bound. alone: nothing else acts on the node meanwhile.
+/// The frame that the target gives to the node, for tests/numbers/frame_bound. alone: nothing else acts on the node
+/// meanwhile.
 struct Given {
   std::uint32_t identifier = 0;
   std::uint8_t length = 0;
