@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <iterator>
 
 #include "bench.hpp"
 #include "co_can_mcp2515.h"
@@ -228,6 +229,24 @@ TEST_CASE("MCP251xFD: six frames wait in the controller at most, and are sent in
   CHECK(can.read() == "0");
   bench.run(1000);
   CHECK(bench.sent_by(can) == Texts{"00000300#", "400#", "500#", "600#", "700#", "7FF#"});
+  CHECK(can.takes("321#"));
+  CHECK(can.send("123#") == 0);  // nothing delays the frame before it
+}
+
+TEST_CASE("MCP251xFD: a remote frame has no data of the frame that was in its place before") {
+  Bench bench;
+  Controller& can = bench.add(Kind::mcp251xfd);
+  for (unsigned n = 0; n < 32; ++n) {
+    bench.receive(standard_frame(0x123, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF}));
+  }
+  CHECK(can.read_all().size() == 32);
+  CanFrame remote = remote_frame(standard_frame(0x123));
+  remote.dlc = 8;
+  bench.receive(remote);
+  CO_IF_FRM frame{};
+  REQUIRE(can.driver->Read(can.context(), &frame) == sizeof frame);
+  CHECK(frame.Identifier == (0x123 | CO_IF_FRM_RTR));
+  CHECK(std::all_of(std::begin(frame.Data), std::end(frame.Data), [](std::uint8_t byte) { return byte == 0; }));
 }
 
 // Bus-off -------------------------------------------------------------------------------------------------------------
