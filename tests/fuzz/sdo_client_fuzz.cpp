@@ -166,7 +166,8 @@ class Bench {
       expect_refusal(peer, request, size);
       return;
     }
-    peer.is_tampered = !peer.to_client.empty() || !peer.to_server.empty() || peer.server.is_open();
+    peer.is_tampered =
+        !peer.waiting.empty() || !peer.to_client.empty() || !peer.to_server.empty() || peer.server.is_open();
     peer.waiting.push_back(request.is_upload ? peer.model.start_upload(request.key, size)
                                              : peer.model.start_download(request.key, request.data));
     peer.request = std::move(request);
