@@ -120,7 +120,8 @@ host_demo() {
 }
 
 # Runs a doctest program and counts its cases: run_doctest WHAT COMMAND... Two processes run at the same time, one with
-# the cases of the files $one_half (SDO), one with all others, about half of the work each. All cases that the program lists must have run.
+# the cases of the files $one_half (SDO), one with all others, about half of the work each. All cases that the program
+# lists must have run.
 run_doctest() {
   local what=$1 log=$results/doctest-${1//[^a-zA-Z0-9_]/-} half=${one_half:-*/sdo_*} ran=0 listed
   shift

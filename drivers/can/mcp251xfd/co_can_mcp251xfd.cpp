@@ -225,8 +225,8 @@ void begin_bus_off(Can& can) {
   }
 }
 
-// Reads the error state. The diagnosis, which shows a bus-off that has ended since, is read first: what begins between
-// both readings is then seen in the error state.
+// Reads the error state. The diagnosis, which shows a bus-off since it was cleared, is read first: a bus-off that
+// begins between both readings is then seen in the error state.
 void read_errors(Can& can) {
   const bool was_bus_off = is_in_bus_off(can);
   const bool is_diagnosed = (read(can, diagnosis) & diagnosis_bus_off) != 0;
