@@ -356,7 +356,7 @@ class Trial {
 
 TEST_CASE("PDO mapping sweep: results of writes in random order, and layouts of PDOs, equal those of the model") {
   unsigned exchanged = 0;
-  for (unsigned seed = 1; seed <= 40 / stride(20); ++seed) {
+  for (unsigned seed = 1; seed <= 10 / stride(5); ++seed) {
     CAPTURE(seed);
     Trial trial(seed);
     for (unsigned step = 0; step < 1000; ++step) {
@@ -365,7 +365,7 @@ TEST_CASE("PDO mapping sweep: results of writes in random order, and layouts of 
     }
     exchanged += trial.exchanged();
   }
-  CHECK(exchanged > 2000 / stride(20));
+  CHECK(exchanged > 500 / stride(5));
 }
 
 }  // namespace
