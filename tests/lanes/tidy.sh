@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-about="clang-tidy over src and drivers, with the checks of .clang-tidy; --all: also over codict, with the default limit of its analyzer"
+about="clang-tidy over src and drivers, with the checks of .clang-tidy; --all: also over the tools, with the default limit of its analyzer"
 minutes=1
 packages=("${build_packages[@]}" "${clang_packages[@]}" clang-tidy-14)
 places=(src drivers)
 with_tools=OFF
 # States of a function that the analyzer explores. Its default is 225000, which takes six times as long.
 limits=(--extra-arg=-Xclang --extra-arg=-analyzer-config --extra-arg=-Xclang --extra-arg=max-nodes=25000)
-[ -z "$all" ] || { packages+=("${tool_packages[@]}") places+=(tools/codict/src) with_tools=ON limits=(); }
+[ -z "$all" ] || { packages+=("${tool_packages[@]}") places+=(tools/{codict,lexican}/src) with_tools=ON limits=(); }
 
 # Configures the preset only: this determines the compiler options of each file, and nothing needs to be built.
 lane() {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the tool for device descriptions${full:+ with its program, clang with sanitizers; --all: also linked statically}"
+about="codict, the tool for device descriptions${full:+, with its program, and the parts of the bus tool lexican, clang with sanitizers; --all: codict also linked statically}"
 minutes=${full:+5}
 : "${minutes:=2}"
 . "$root/tests/fuzz/build.sh"
@@ -33,7 +33,7 @@ undefined=shift,signed-integer-overflow,integer-divide-by-zero,float-cast-overfl
 all_cases() {
   local codict target of=$build/codict/tools/codict targets=(lexican_codict_core_tests lexican_codict_tests
     lexican_codict_program_tests lexican_codict_memory_tests lexican_codict_node_tests lexican_codict_bench codict
-    codict_words "${tool_fuzz_targets[@]/%/_fuzz}")
+    codict_words lexican_tool_tests "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
     -DCMAKE_CXX_FLAGS_DEBUG="-O0" -DLEXICAN_SANITIZE=address,$undefined \
     -DLEXICAN_TEST_OPTIONS="-O0;-fno-sanitize=all" -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON || return
@@ -41,7 +41,8 @@ all_cases() {
   run_doctest codict "$of/tests/lexican_codict_tests"
   run_doctest "codict program" "$of/tests/lexican_codict_program_tests"
   run_doctest "codict nodes" "$of/tests/lexican_codict_node_tests"
-  built_from codict tools/codict/tests -name '*_test.cpp'
+  run_doctest "lexican" "$build/codict/tools/lexican/lexican_tool_tests"
+  built_from codict tools/codict/tests tools/lexican/tests -name '*_test.cpp'
   host_codict && LEXICAN_CODICT=$codict run_doctest "codict memory" "$of/tests/lexican_codict_memory_tests"
   codict_pages
   for target in "${tool_fuzz_targets[@]}"; do
