@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file bus.hpp
+/// A CAN bus as the tool uses it, whatever connects to it.
+#pragma once
+
+#include <poll.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "bus/log.hpp"
+
+namespace lexican::host_bus {
+
+/// Context: one thread. receive() and send() do not wait.
+class Bus {
+ public:
+  virtual ~Bus() = default;
+
+  /// Returns the descriptor and the events for poll(); the descriptor is -1 while the bus is lost.
+  virtual pollfd wanted() = 0;
+  /// Reads the next frame that another participant has sent, or an error frame.
+  /// \retval nothing  there is none, or the bus is lost; fault() says why
+  virtual std::optional<Entry> receive() = 0;
+  /// Sends a frame.
+  /// \retval true   it is queued
+  /// \retval false  there is no space: try again when poll() reports POLLOUT; or the bus is lost
+  virtual bool send(const CO_IF_FRM& frame) = 0;
+  /// Tries to open again a bus that is lost.
+  /// \retval true  it is open
+  virtual bool restore() = 0;
+
+  /// Returns why the bus is lost, in words; empty: it is not.
+  virtual const std::string& fault() const = 0;
+  /// Returns the number of frames since the opening that this participant did not receive, because it read too late.
+  virtual std::uint64_t lost() const = 0;
+  /// Returns false if all participants are simulated.
+  virtual bool is_physical() const = 0;
+  /// Returns the bit rate in bit/s; 0: it has none, or it is unknown.
+  virtual std::uint32_t bit_rate() const = 0;
+};
+
+}  // namespace lexican::host_bus

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bus/hub.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "bus/hub_messages.hpp"
+
+namespace lexican::host_bus {
+namespace {
+
+constexpr std::string_view greeting = "lexican-hub 1 ";
+constexpr const char* no_hub = "the program at this socket is not a hub of this version of lexican";
+constexpr const char* ended = "the hub has ended";
+constexpr std::size_t longest_greeting = 64;
+constexpr int greeting_timeout = 1000;  // ms
+constexpr Micros linger = 2'000'000;    // that a hub without clients waits for the next one
+
+Micros clock_now(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<Micros>(now.tv_sec) * 1'000'000 + static_cast<Micros>(now.tv_nsec) / 1000;
+}
+
+/// \retval -1  errno says why
+int connect_to(const sockaddr_un& address) {
+  const int fd = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (fd >= 0 && connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    const int error = errno;
+    close(fd);
+    errno = error;
+    return -1;
+  }
+  return fd;
+}
+
+/// Creates a directory for this user only.
+/// \retval false  it is not safe; \a why says so
+bool make_directory(const std::string& path, std::string& why) {
+  struct stat found {};
+  if (mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) {
+    why = "the directory " + path + " cannot be created: " + std::strerror(errno);
+  } else if (lstat(path.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != geteuid() ||
+             (found.st_mode & 077U) != 0) {
+    why = path + " has to be a directory of this user that nobody else may enter (chmod 700)";
+  }
+  return why.empty();
+}
+
+/// A lock file, so that one program at a time starts or ends the server of a hub.
+class Lock {
+ public:
+  explicit Lock(const std::string& path) : fd_(::open((path + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600)) {
+    if (fd_ >= 0) {
+      flock(fd_, LOCK_EX);
+    }
+  }
+  ~Lock() {
+    if (fd_ >= 0) {
+      close(fd_);
+    }
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int fd_;
+};
+
+/// Leaves the terminal, the files and the directory of the program that has started the server.
+void detach(const HubServer& server) {
+  setsid();
+  if (chdir("/") != 0) {
+    return;
+  }
+  const int null = ::open("/dev/null", O_RDWR);
+  for (int fd = 0; fd < 3; ++fd) {
+    dup2(null, fd);
+  }
+  const auto listener = static_cast<unsigned>(server.listener());
+  if (listener > 3) {
+    close_range(3, listener - 1, 0);
+  }
+  close_range(listener + 1, ~0U, 0);
+}
+
+/// Runs the server in a process that is no child of this one.
+bool run_in_background(HubServer& server) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (fork() == 0) {
+      detach(server);
+      run_hub(server);
+    }
+    _exit(0);
+  }
+  return child > 0 && waitpid(child, nullptr, 0) == child;
+}
+
+/// Starts the server of a hub, unless another program has done so meanwhile, and connects to it.
+/// \retval -1  \a why or errno says why
+int start(const std::string& path, const sockaddr_un& address, std::string& why) {
+  const Lock lock(path);
+  const int fd = connect_to(address);
+  if (fd >= 0) {
+    return fd;
+  }
+  unlink(path.c_str());
+  HubServer server("simulated");
+  return server.open(path, why) && run_in_background(server) ? connect_to(address) : -1;
+}
+
+/// Connects to the server of a hub; starts it if there is none.
+/// \retval -1  \a why says why
+int connect_or_start(const std::string& path, std::string& why) {
+  sockaddr_un address{};
+  if (!address_of(path, address, why)) {
+    return -1;
+  }
+  int fd = connect_to(address);
+  fd = fd >= 0 ? fd : start(path, address, why);
+  if (fd < 0 && why.empty()) {
+    why = "the hub at " + path + " does not answer: " + std::strerror(errno);
+  }
+  return fd;
+}
+
+/// Removes the path of a server that nobody uses.
+/// \retval false  a client has connected at this moment
+bool is_ended(HubServer& server) {
+  const Lock lock(server.path());
+  server.process(clock_now(CLOCK_REALTIME));
+  return server.clients() == 0 && (unlink(server.path().c_str()) == 0 || errno == ENOENT);
+}
+
+class HubBus : public Bus {
+ public:
+  HubBus(std::string path, bool starts_server) : path_(std::move(path)), starts_server_(starts_server) {}
+  ~HubBus() override { disconnect(""); }
+  HubBus(const HubBus&) = delete;
+  HubBus& operator=(const HubBus&) = delete;
+
+  pollfd wanted() override { return {fd_, static_cast<short>(is_refused_ ? POLLIN | POLLOUT : POLLIN), 0}; }
+
+  std::optional<Entry> receive() override {
+    std::array<char, longest_greeting> bytes{};
+    while (fd_ >= 0) {
+      const ssize_t size = recv(fd_, bytes.data(), bytes.size(), 0);
+      if (size < 0 && (errno == EAGAIN || errno == EINTR)) {
+        return std::nullopt;
+      }
+      const std::string_view message(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+      if (message.empty()) {
+        disconnect(is_greeted_ ? ended : no_hub);
+      } else if (!is_greeted_) {
+        read_greeting(message);
+      } else if (const std::optional<Entry> entry = entry_of(message)) {
+        return entry;
+      }
+    }
+    return std::nullopt;
+  }
+
+  bool send(const CO_IF_FRM& frame) override {
+    const HubMessage message = message_with(frame);
+    const ssize_t size = fd_ < 0 ? -1 : ::send(fd_, message.data(), message.size(), MSG_NOSIGNAL);
+    is_refused_ = size < 0 && fd_ >= 0 && (errno == EAGAIN || errno == EINTR);
+    if (size < 0 && !is_refused_ && fd_ >= 0) {
+      disconnect(ended);
+    }
+    return size >= 0;
+  }
+
+  bool restore() override {
+    if (fd_ >= 0) {
+      return true;
+    }
+    std::string why;
+    sockaddr_un address{};
+    if (starts_server_) {
+      fd_ = connect_or_start(path_, why);
+    } else if (address_of(path_, address, why)) {
+      fd_ = connect_to(address);
+      why = fd_ >= 0 ? "" : path_ + ": " + std::strerror(errno);
+    }
+    fault_ = why;
+    is_greeted_ = is_refused_ = false;
+    return fd_ >= 0;
+  }
+
+  /// Waits for the greeting.
+  bool is_greeted() {
+    pollfd answer{fd_, POLLIN, 0};
+    poll(&answer, 1, greeting_timeout);
+    std::array<char, longest_greeting> bytes{};
+    const ssize_t size = recv(fd_, bytes.data(), bytes.size(), 0);
+    if (size <= 0) {
+      disconnect(ended);
+    } else {
+      read_greeting({bytes.data(), static_cast<std::size_t>(size)});
+    }
+    return is_greeted_;
+  }
+
+  const std::string& fault() const override { return fault_; }
+  std::uint64_t lost() const override { return lost_; }
+  bool is_physical() const override { return is_physical_; }
+  std::uint32_t bit_rate() const override { return bit_rate_; }
+
+ private:
+  void read_greeting(std::string_view text) {
+    constexpr std::string_view physical = "physical ";
+    if (text.substr(0, greeting.size()) != greeting) {
+      disconnect(no_hub);
+      return;
+    }
+    text.remove_prefix(greeting.size());
+    is_greeted_ = true;
+    is_physical_ = text != "simulated";
+    bit_rate_ = 0;
+    if (text.substr(0, physical.size()) == physical) {
+      parse_number(text.substr(physical.size()), bit_rate_);
+    }
+  }
+
+  std::optional<Entry> entry_of(std::string_view bytes) {
+    HubMessage message{};
+    std::copy_n(bytes.begin(), std::min(bytes.size(), message.size()), message.begin());
+    const bool is_whole = bytes.size() == message.size();
+    Entry entry;
+    if (is_whole && message[0] == 'F' && frame_of(message, entry.frame)) {
+      entry.time = number_at(message, 8, 8);
+      entry.direction = Direction::received;
+      return entry;
+    }
+    if (is_whole && message[0] == 'L') {
+      lost_ += number_at(message, 4, 4);
+    } else {
+      disconnect(no_hub);
+    }
+    return std::nullopt;
+  }
+
+  void disconnect(const char* why) {
+    if (fd_ >= 0) {
+      close(fd_);
+    }
+    fd_ = -1;
+    fault_ = why;
+  }
+
+  std::string path_;
+  bool starts_server_;
+  int fd_ = -1;
+  bool is_greeted_ = false;
+  bool is_refused_ = false;  // the last frame to send
+  bool is_physical_ = true;  // until the greeting says otherwise
+  std::uint32_t bit_rate_ = 0;
+  std::uint64_t lost_ = 0;
+  std::string fault_;
+};
+
+}  // namespace
+
+void run_hub(HubServer& server) {
+  Micros last_used = clock_now(CLOCK_MONOTONIC);
+  Micros now = last_used;
+  while (now - last_used < linger || !is_ended(server)) {
+    std::vector<pollfd> wanted = server.wanted();
+    poll(wanted.data(), wanted.size(), 500);
+    server.process(clock_now(CLOCK_REALTIME));
+    now = clock_now(CLOCK_MONOTONIC);
+    last_used = server.clients() != 0 ? now : last_used;
+  }
+}
+
+std::string hub_path(const std::string& name, std::string& why) {
+  const bool is_valid = !name.empty() && name.size() <= 40 && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_';
+  });
+  if (!is_valid) {
+    why = "the name of a hub has 1 to 40 letters, digits, - and _";
+    return {};
+  }
+  const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
+  const std::string directory = runtime != nullptr && runtime[0] == '/' ? std::string(runtime) + "/lexican"
+                                                                        : "/tmp/lexican-" + std::to_string(geteuid());
+  return make_directory(directory, why) ? directory + '/' + name + ".hub" : std::string();
+}
+
+std::unique_ptr<Bus> open_hub(const std::string& name, std::string& why) {
+  const std::string path = hub_path(name, why);
+  constexpr unsigned most_tries = 3;  // a server may end at this moment
+  for (unsigned n = 0; n < most_tries && !path.empty(); ++n) {
+    auto bus = std::make_unique<HubBus>(path, true);
+    if (bus->restore() && bus->is_greeted()) {
+      why.clear();
+      return bus;
+    }
+    why = bus->fault();
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Bus> connect_to_hub(const std::string& path, std::string& why) {
+  auto bus = std::make_unique<HubBus>(path, false);
+  if (!bus->restore()) {
+    why = bus->fault();
+    return nullptr;
+  }
+  return bus;
+}
+
+}  // namespace lexican::host_bus

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+// hub:NAME: a server in this process and clients on real sockets, hostile clients, and a server in a process.
+#include "bus/hub.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace lexican::host_bus;
+
+/// Directory that exists during a test, as XDG_RUNTIME_DIR.
+class Runtime {
+ public:
+  Runtime() {
+    char name[] = "/tmp/lexican-test-XXXXXX";
+    path_ = mkdtemp(name);
+    setenv("XDG_RUNTIME_DIR", path_.c_str(), 1);
+  }
+  ~Runtime() {
+    unsetenv("XDG_RUNTIME_DIR");
+    std::filesystem::remove_all(path_);
+  }
+  Runtime(const Runtime&) = delete;
+  Runtime& operator=(const Runtime&) = delete;
+  const std::string& path() const { return path_; }
+  std::string socket() const { return path_ + "/socket"; }
+
+ private:
+  std::string path_;
+};
+
+CO_IF_FRM frame(const char* text) {
+  CO_IF_FRM result{};
+  REQUIRE(parse_frame(text, result) == Parsed::frame);
+  return result;
+}
+
+/// Returns all frames that a bus has received, without their times.
+std::vector<std::string> read(Bus& bus) {
+  std::vector<std::string> frames;
+  while (const std::optional<Entry> entry = bus.receive()) {
+    frames.push_back(to_text(entry->frame));
+  }
+  return frames;
+}
+
+using Texts = std::vector<std::string>;
+
+/// A server in this process with some clients, which know its greeting.
+struct Hub {
+  explicit Hub(unsigned clients, const std::string& greeting = "simulated") : server(greeting) {
+    std::string why;
+    REQUIRE_MESSAGE(server.open(runtime.socket(), why), why);
+    for (unsigned n = 0; n < clients; ++n) {
+      buses.push_back(connect());
+    }
+    server.process(0);
+    for (const std::unique_ptr<Bus>& bus : buses) {
+      CHECK(read(*bus).empty());
+    }
+  }
+
+  std::unique_ptr<Bus> connect() {
+    std::string why;
+    std::unique_ptr<Bus> bus = connect_to_hub(runtime.socket(), why);
+    REQUIRE_MESSAGE(bus != nullptr, why);
+    return bus;
+  }
+
+  /// Returns a socket that is connected to the server.
+  int connect_raw() {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strcpy(address.sun_path, runtime.socket().c_str());
+    const int fd = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
+    REQUIRE(::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    return fd;
+  }
+
+  Runtime runtime;
+  HubServer server;
+  std::vector<std::unique_ptr<Bus>> buses;
+};
+
+/// Sends bytes to a server by a client that nothing else does.
+void send_hostile(Hub& hub, const std::string& bytes) {
+  const int fd = hub.connect_raw();
+  hub.server.process(0);
+  REQUIRE(::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size()));
+  hub.server.process(0);
+  close(fd);
+}
+
+}  // namespace
+
+TEST_CASE("hub: a frame reaches all other clients, with the time of the server") {
+  Hub hub(3);
+  CHECK(hub.buses[0]->send(frame("123#AABB")));
+  CHECK(hub.buses[0]->send(frame("12345678#R8")));
+  hub.server.process(0x0123456789ABCDEF);
+  for (const unsigned n : {1U, 2U}) {
+    const std::optional<Entry> entry = hub.buses[n]->receive();
+    REQUIRE(entry.has_value());
+    CHECK(entry->time == 0x0123456789ABCDEF);
+    CHECK(entry->direction == Direction::received);
+    CHECK(to_text(entry->frame) == "123#AABB");
+    CHECK(read(*hub.buses[n]) == Texts{"12345678#R8"});
+  }
+  CHECK(read(*hub.buses[0]).empty());
+}
+
+TEST_CASE("hub: the greeting says whether the bus is simulated") {
+  Hub simulated(1);
+  CHECK_FALSE(simulated.buses[0]->is_physical());
+  CHECK(simulated.buses[0]->bit_rate() == 0);
+  Hub physical(1, "physical 500000");
+  CHECK(physical.buses[0]->is_physical());
+  CHECK(physical.buses[0]->bit_rate() == 500000);
+  const std::unique_ptr<Bus> unknown = physical.connect();
+  CHECK(unknown->is_physical());
+}
+
+TEST_CASE("hub: the messages on the socket") {
+  Hub hub(1);
+  const int fd = hub.connect_raw();
+  hub.server.process(0);
+  char bytes[100];
+  REQUIRE(recv(fd, bytes, sizeof bytes, 0) == 23);
+  CHECK(std::string(bytes, 23) == "lexican-hub 1 simulated");
+  hub.buses[0]->send(frame("12345678#0102030405060708"));
+  hub.server.process(1);
+  REQUIRE(recv(fd, bytes, sizeof bytes, 0) == 24);
+  CHECK(std::string(bytes, 24) == std::string("F\x08\x00\x00\x78\x56\x34\x92\x01\x00\x00\x00\x00\x00\x00\x00"
+                                              "\x01\x02\x03\x04\x05\x06\x07\x08",
+                                              24));
+  close(fd);
+}
+
+TEST_CASE("hub: a client that sends something else than a frame is disconnected, the others are not") {
+  Hub hub(2);
+  const std::string good(
+      "F\x01\x00\x00\x23\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00", 24);
+  send_hostile(hub, good);
+  CHECK(read(*hub.buses[0]) == Texts{"123#00"});
+  std::vector<std::string> hostile = {"x", good.substr(0, 23), good + "x", "L" + good.substr(1),
+                                      std::string(65000, 'F')};
+  std::string changed = good;
+  changed[1] = 9;  // length
+  hostile.push_back(changed);
+  changed = good;
+  changed[5] = 8;  // beyond 11 bits
+  hostile.push_back(changed);
+  changed = good;
+  changed[7] = 0x20;  // an error frame
+  hostile.push_back(changed);
+  for (const std::string& bytes : hostile) {
+    send_hostile(hub, bytes);
+    CHECK(hub.server.clients() == 2);
+    CHECK(read(*hub.buses[0]).empty());
+  }
+  std::mt19937 random(1);
+  for (unsigned n = 0; n < 1000; ++n) {
+    std::string bytes(1 + random() % 40, '\0');
+    for (char& byte : bytes) {
+      byte = static_cast<char>(random());
+    }
+    send_hostile(hub, bytes);
+  }
+  read(*hub.buses[1]);
+  CHECK(hub.buses[0]->send(frame("001#")));
+  hub.server.process(0);
+  CHECK(read(*hub.buses[1]) == Texts{"001#"});
+}
+
+TEST_CASE("hub: a client that does not read loses frames, which are counted, and delays nobody") {
+  Hub hub(3);
+  constexpr unsigned number = 40000;
+  unsigned received = 0;
+  for (unsigned n = 0; n < number; ++n) {
+    REQUIRE(hub.buses[0]->send(frame("123#")));
+    hub.server.process(n);
+    received += static_cast<unsigned>(read(*hub.buses[1]).size());
+  }
+  CHECK(received == number);
+  CHECK(hub.buses[1]->lost() == 0);
+  received = 0;
+  for (unsigned n = 0; n < number; ++n) {
+    received += static_cast<unsigned>(read(*hub.buses[2]).size());
+    hub.server.process(0);
+  }
+  CHECK(received >= HubServer::most_waiting);
+  CHECK(hub.buses[2]->lost() > 0);
+  CHECK(received + hub.buses[2]->lost() == number);
+  REQUIRE(hub.buses[0]->send(frame("124#")));
+  hub.server.process(0);
+  CHECK(read(*hub.buses[2]) == Texts{"124#"});
+}
+
+TEST_CASE("hub: a client that sends too fast waits, and loses nothing") {
+  Hub hub(2);
+  constexpr unsigned number = 20000;
+  unsigned received = 0;
+  unsigned waits = 0;
+  for (unsigned n = 0; n < number;) {
+    if (hub.buses[0]->send(frame("123#"))) {
+      ++n;
+      CHECK(hub.buses[0]->wanted().events == POLLIN);
+      continue;
+    }
+    ++waits;
+    CHECK(hub.buses[0]->wanted().events == (POLLIN | POLLOUT));
+    CHECK(hub.buses[0]->fault().empty());
+    hub.server.process(0);
+    received += static_cast<unsigned>(read(*hub.buses[1]).size());
+  }
+  for (unsigned n = 0; n < number; ++n) {
+    hub.server.process(0);
+    received += static_cast<unsigned>(read(*hub.buses[1]).size());
+  }
+  CHECK(waits > 0);
+  CHECK(received == number);
+}
+
+TEST_CASE("hub: further clients wait until one of the 64 has left") {
+  Hub hub(HubServer::most_clients);
+  const std::unique_ptr<Bus> another = hub.connect();
+  hub.server.process(0);
+  CHECK(hub.server.clients() == HubServer::most_clients);
+  CHECK(hub.server.wanted().front().fd == -1);
+  hub.buses.pop_back();
+  hub.server.process(0);
+  hub.server.process(0);
+  CHECK(hub.server.clients() == HubServer::most_clients);
+  hub.buses[0]->send(frame("123#"));
+  hub.server.process(0);
+  CHECK(read(*another) == Texts{"123#"});
+}
+
+TEST_CASE("hub: when the server ends, clients say so, and connect to the next one") {
+  Runtime runtime;
+  std::string why;
+  auto server = std::make_unique<HubServer>("simulated");
+  REQUIRE(server->open(runtime.socket(), why));
+  const std::unique_ptr<Bus> bus = connect_to_hub(runtime.socket(), why);
+  server->process(0);
+  CHECK(read(*bus).empty());
+  server.reset();
+  CHECK(read(*bus).empty());
+  CHECK(bus->fault() == "the hub has ended");
+  CHECK(bus->wanted().fd == -1);
+  CHECK_FALSE(bus->send(frame("123#")));
+  CHECK_FALSE(bus->restore());
+  CHECK(bus->fault() == runtime.socket() + ": Connection refused");
+  std::filesystem::remove(runtime.socket());
+  HubServer next("simulated");
+  REQUIRE(next.open(runtime.socket(), why));
+  CHECK(bus->restore());
+  CHECK(bus->fault().empty());
+  CHECK(bus->send(frame("123#")));
+}
+
+TEST_CASE("hub: another program at the socket is refused") {
+  Runtime runtime;
+  std::string why;
+  for (const char* const greeting : {"2 simulated", ""}) {
+    CAPTURE(greeting);
+    const int listener = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strcpy(address.sun_path, runtime.socket().c_str());
+    REQUIRE(bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    REQUIRE(listen(listener, 1) == 0);
+    const std::unique_ptr<Bus> bus = connect_to_hub(runtime.socket(), why);
+    REQUIRE(bus != nullptr);
+    const int fd = accept(listener, nullptr, nullptr);
+    const std::string text = std::string("lexican-hub ") + greeting;
+    CHECK(::send(fd, text.data(), text.size(), MSG_NOSIGNAL) > 0);
+    CHECK(read(*bus).empty());
+    CHECK(bus->fault() == "the program at this socket is not a hub of this version of lexican");
+    close(fd);
+    close(listener);
+    std::filesystem::remove(runtime.socket());
+  }
+}
+
+TEST_CASE("hub: names and directories that are not safe are refused") {
+  Runtime runtime;
+  for (const char* const name : {"", "a/b", "..", "a b", "a\n", "12345678901234567890123456789012345678901"}) {
+    CAPTURE(name);
+    std::string why;
+    CHECK(hub_path(name, why).empty());
+    CHECK(why == "the name of a hub has 1 to 40 letters, digits, - and _");
+  }
+  std::string why;
+  CHECK(hub_path("bench-1_A", why) == runtime.path() + "/lexican/bench-1_A.hub");
+  struct stat found {};
+  CHECK(stat((runtime.path() + "/lexican").c_str(), &found) == 0);
+  CHECK((found.st_mode & 0777) == 0700);
+  REQUIRE(chmod((runtime.path() + "/lexican").c_str(), 0750) == 0);
+  CHECK(hub_path("bench", why).empty());
+  CHECK(why == runtime.path() + "/lexican has to be a directory of this user that nobody else may enter (chmod 700)");
+  std::filesystem::remove_all(runtime.path() + "/lexican");
+  std::filesystem::create_directory_symlink("/tmp", runtime.path() + "/lexican");
+  CHECK(hub_path("bench", why).empty());
+  why.clear();
+  setenv("XDG_RUNTIME_DIR", ("/tmp/" + std::string(100, 'x')).c_str(), 1);
+  CHECK(open_hub("bench", why) == nullptr);
+  CHECK_FALSE(why.empty());
+}
+
+TEST_CASE("hub: the first program starts the server, which ends after the last one") {
+  Runtime runtime;
+  std::string why;
+  std::unique_ptr<Bus> first = open_hub("bench", why);
+  REQUIRE_MESSAGE(first != nullptr, why);
+  std::unique_ptr<Bus> second = open_hub("bench", why);
+  REQUIRE_MESSAGE(second != nullptr, why);
+  std::unique_ptr<Bus> other = open_hub("other", why);
+  REQUIRE_MESSAGE(other != nullptr, why);
+  CHECK_FALSE(first->is_physical());
+  CHECK(first->send(frame("123#01")));
+  Texts received;
+  while (received.empty() && second->fault().empty()) {
+    pollfd wanted = second->wanted();
+    poll(&wanted, 1, 100);
+    received = read(*second);
+  }
+  CHECK(received == Texts{"123#01"});
+  CHECK(read(*other).empty());
+  first.reset();
+  second.reset();
+  other.reset();
+  const std::string directory = runtime.path() + "/lexican/";
+  while (std::filesystem::exists(directory + "bench.hub") || std::filesystem::exists(directory + "other.hub")) {
+    usleep(10000);
+  }
+  const std::unique_ptr<Bus> again = open_hub("bench", why);
+  CHECK(again != nullptr);
+}
