@@ -34,6 +34,23 @@ std::vector<Entry> read_all(const std::string& bytes, std::size_t most, std::uin
   return entries;
 }
 
+/// Returns a frame as an adapter may have received it.
+Entry received(const std::uint8_t* data, std::size_t size) {
+  fuzz::Input input(data, size);
+  Entry entry;
+  entry.time = input.number();
+  entry.frame.Identifier = input.number();
+  if ((entry.frame.Identifier & (CO_IF_FRM_EXT | CO_IF_FRM_ERROR)) == 0) {
+    entry.frame.Identifier &= CO_IF_FRM_RTR | 0x7FF;
+  }
+  entry.frame.DLC = static_cast<std::uint8_t>(input.below(16));
+  for (std::uint8_t& byte : entry.frame.Data) {
+    byte = input.byte();
+  }
+  entry.direction = input.flag() ? Direction::received : Direction::sent;
+  return entry;
+}
+
 bool is_same(const Entry& a, const Entry& b) {
   return a.time == b.time && a.direction == b.direction && to_text(a.frame) == to_text(b.frame);
 }
@@ -42,15 +59,13 @@ bool is_same(const Entry& a, const Entry& b) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::uint64_t malformed = 0;
-  const std::vector<Entry> entries = read_all(std::string(data, data + size), size, malformed);
+  std::vector<Entry> entries = read_all(std::string(data, data + size), size, malformed);
+  entries.push_back(received(data, size));
   for (const char* const name : {"a.log", "a.pcapng"}) {
     std::ostringstream written;
     const std::unique_ptr<LogWriter> writer = write_log(written, name, "can0");
     for (const Entry& entry : entries) {
       writer->write(entry);
-    }
-    if (entries.empty()) {
-      continue;
     }
     const std::vector<Entry> again = read_all(written.str(), entries.size(), malformed);
     fuzz::require(malformed == 0, "the writer writes no malformed frame");

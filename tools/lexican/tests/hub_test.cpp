@@ -183,7 +183,7 @@ TEST_CASE("hub: a client that sends something else than a frame is disconnected,
   CHECK(read(*hub.buses[1]) == Texts{"001#"});
 }
 
-TEST_CASE("hub: a client that does not read loses frames, which are counted, and delays nobody") {
+TEST_CASE("hub: a client that does not read loses frames, which are counted, and does not delay the others") {
   Hub hub(3);
   constexpr unsigned number = 40000;
   unsigned received = 0;
@@ -309,7 +309,7 @@ TEST_CASE("hub: names and directories that are not safe are refused") {
   CHECK((found.st_mode & 0777) == 0700);
   REQUIRE(chmod((runtime.path() + "/lexican").c_str(), 0750) == 0);
   CHECK(hub_path("bench", why).empty());
-  CHECK(why == runtime.path() + "/lexican has to be a directory of this user that nobody else may enter (chmod 700)");
+  CHECK(why == runtime.path() + "/lexican has to be a directory of this user that others may not enter (chmod 700)");
   std::filesystem::remove_all(runtime.path() + "/lexican");
   std::filesystem::create_directory_symlink("/tmp", runtime.path() + "/lexican");
   CHECK(hub_path("bench", why).empty());

@@ -85,11 +85,12 @@ TEST_CASE("log: candump, lost frames, and frames of CAN FD") {
   const Log log = read(
       "DROPCOUNT: dropped 1 CAN frame on 'can0' socket (total drops 1)\n"
       "(1.000000) can0 123##1AABB\n"
+      "(1.500000) can0 45123#81:00:12345678#11223344.556677\n"
       "(2.000000) can0 123#\n"
       "DROPCOUNT: dropped 41 CAN frames on 'can0' socket (total drops 42)\n");
   CHECK(log.frames == Texts{"2000000 can0 123#"});
   CHECK(log.lost == 42);
-  CHECK(log.other_frames == 1);
+  CHECK(log.other_frames == 2);
   CHECK(log.malformed == 0);
 }
 
@@ -103,6 +104,9 @@ TEST_CASE("log: candump, lines that are not frames are counted, the others are r
       "(1.000000) can0 123#1",      // half a byte
       "(1.000000) can0 123#112233445566778899",
       "(1.000000) can0 123#R9",
+      "(1.000000) can0 123#11_Z",
+      "(1.000000) can0 123#11_9",
+      "(1.000000) can0 123#R_F",
       "(1.000000) can0 123",
       "(1.000000) can0 123# X",
       "(1.000000) can0 123# R R",
@@ -116,7 +120,7 @@ TEST_CASE("log: candump, lines that are not frames are counted, the others are r
   };
   for (const char* const line : lines) {
     CAPTURE(line);
-    const Log log = read("(0.000000) can0 001#\n" + std::string(line) + "\n\n(2.000000) can0 002#");
+    const Log log = read("(0.000000) can0 001#\n" + std::string(line) + "\n\n(2.000000) can0 002#\n");
     CHECK(log.frames == Texts{"0 can0 001#", "2000000 can0 002#"});
     CHECK(log.malformed == 1);
   }
@@ -171,10 +175,8 @@ TEST_CASE("log: ASC, relative times and decimal numbers") {
 
 TEST_CASE("log: ASC, damaged frames are counted") {
   const char* const lines[] = {
-      "1.0 1 800 Rx d 0", "1.0 1 20000000x Rx d 0", "1.0 1 123 Rx d 3 01 02",
-      "1.0 1 123 Rx d",   "1.0 1 123 Rx d 1 100",   "1.0 1 123 Rx d 10 1",
-      "1.0 1 x Rx d 0",   "1.0 1 123 Up d 0",       "1.0 1 123 Rx q 0",
-      "1.0 1 123",
+      "1.0 1 800 Rx d 0",     "1.0 1 20000000x Rx d 0", "1.0 1 123 Rx d 3 01 02", "1.0 1 123 Rx d",
+      "1.0 1 123 Rx d 1 100", "1.0 1 123 Rx d 10 1",    "1.0 1 x Rx d 0",         "1.0 1 123 Rx q 0",
   };
   for (const char* const line : lines) {
     CAPTURE(line);
@@ -219,7 +221,8 @@ TEST_CASE("log: pcapng, other frames, other interfaces and damaged packets are c
   CHECK(packet("00000000", "0000012309000000").other_frames == 1);
   CHECK(packet("00000000", "0000012301000000").malformed == 1);  // no data
   CHECK(packet("00000000", "0000080000000000").malformed == 1);  // beyond 11 bits
-  CHECK(packet("01000000", "0000012300000000").malformed == 1);
+  CHECK(packet("01000000", "0000012300000000").malformed == 0);  // Ethernet
+  CHECK(packet("01000000", "0000012300000000").fault == "the packets are not CAN frames (link type 227, SocketCAN)");
   CHECK(packet("02000000", "0000012300000000").malformed == 1);
 }
 
@@ -249,12 +252,96 @@ TEST_CASE("log: pcap, both byte orders, microseconds and nanoseconds") {
             .fault == "a packet is longer than a megabyte: the file is damaged");
 }
 
-TEST_CASE("log: an unknown format is refused") {
+TEST_CASE("log: a file of python-can, which may have frames of CAN FD without the flag FDF") {
+  const std::string padding(124, '0');
+  const std::string begin =
+      "D4C3B2A1 0200 0400 00000000 00000000 00000400 E3000000 01000000 00000000 48000000 48000000 ";
+  CHECK(read(bytes_of(begin + "00000123 02000000 AABB" + padding)).other_frames == 1);
+  CHECK(read(bytes_of("D4C3B2A1 0200 0400 00000000 00000000 00000400 E3000000 01000000 00000000 10000000 10000000"
+                      "00000123 02000000 AABB000000000000"))
+            .frames == Texts{"1000000 can 123#AABB"});
+}
+
+TEST_CASE("log: ASC, lines of CAN FD with frames of classic CAN, symbolic identifiers, other events") {
+  const Log log = read(
+      "base hex  timestamps absolute\n"
+      "0.1 CANFD   1 Rx         44                                   0 0 5  5 2A 36 6C 2B BA   130000  130        0 0 "
+      "0 0 0 0\n"
+      "0.2 CANFD   1 Tx   12345678x  Name                            0 0 0  0   130000  130        10 0 0 0 0 0\n"
+      "0.3 CANFD   1 Rx        123                                   1 0 2  2 01 02   130000  130   303000 0 0 0 0 0\n"
+      "0.4 CANFD   1 Rx ErrorFrame  Flags = 0xe\n"
+      "0.5 1  Heartbeat5      Rx   d 1 05  Length = 150000 BitCount = 78 ID = 1797\n"
+      "0.6 1  J1939TP FEE3p 6 0 0 - Rx d 23 A0\n"
+      "0.7 1  errorframe\n"
+      "0.8 1  Unknown         Rx   d 1 05\n");
+  CHECK(log.frames == Texts{"100000 1 044#2A366C2BBA R", "200000 1 12345678#R T", "400000 1 20000088#0000000000000000",
+                            "500000 1 705#05 R", "700000 1 20000088#0000000000000000"});
+  CHECK(log.other_frames == 1);
+  CHECK(log.malformed == 1);
+}
+
+TEST_CASE("log: times that a file cannot mean are read as the latest time") {
+  const Log log = read(
+      "base hex timestamps relative\n"
+      "18446744073708.0 1 123 Rx d 0\n"
+      "1.2 1 124 Rx d 0\n"
+      "1.0 1 125 Rx d 0\n");
+  CHECK(log.frames ==
+        Texts{"18446744073708000000 1 123# R", "18446744073708000000 1 124# R", "18446744073708000000 1 125# R"});
+}
+
+TEST_CASE("log: names of interfaces are printable, without spaces") {
+  CHECK(read("(1.0) can\x1B[2J\xFF#0 123#\n").frames == Texts{"1000000 can_[2J_#0 123#"});
+  std::ostringstream written;
+  Entry entry;
+  entry.frame.Identifier = 0x123 | CO_IF_FRM_RTR;
+  entry.frame.DLC = 15;
+  write_log(written, "a.log", "")->write(entry);
+  write_log(written, "a.log", "my can\n")->write(entry);
+  CHECK(written.str() == "(0000000000.000000) can 123#R8\n(0000000000.000000) my_can_ 123#R8\n");
+  std::ostringstream packets;
+  write_log(packets, "a.PcapNG", "my can")->write(entry);
+  CHECK(read(packets.str()).frames == Texts{"0 my_can 123#R8"});
+  for (const char* const name : {"a.pcap", "a.ASC", "a.blf", "a.trc", "a.log.gz"}) {
+    CHECK(write_log(written, name, "can0") == nullptr);
+  }
+}
+
+TEST_CASE("log: a file that cannot be read is no empty file") {
+  struct Broken : std::streambuf {
+    int_type underflow() override {
+      if (++reads > 1) throw std::ios_base::failure("removed");
+      setg(bytes, bytes, bytes + sizeof bytes - 1);
+      return bytes[0];
+    }
+    char bytes[19] = "(1.0) can0 123#01\n";
+    int reads = 0;
+  } broken;
+  std::istream stream(&broken);
+  std::string why;
+  const std::unique_ptr<LogReader> reader = read_log(stream, why);
+  REQUIRE(reader != nullptr);
+  CHECK(reader->next().has_value());
+  CHECK_FALSE(reader->next().has_value());
+  CHECK(reader->fault() == "the file cannot be read to its end");
+  std::istream none(nullptr);
+  CHECK(read_log(none, why) == nullptr);
+  CHECK(why == "the file cannot be opened");
+}
+
+TEST_CASE("log: an unknown format is refused, with advice") {
+  CHECK(read("LOGG\x90").fault == "a BLF file of Vector; convert it to ASC, or with can_logconvert of python-can");
+  CHECK(read("\x1F\x8B\x08").fault == "a compressed file; decompress it with gunzip");
+  CHECK(read(";$FILEVERSION=2.1").fault == "a trace file of PEAK (TRC); convert it with can_logconvert of python-can");
+  CHECK(read("  (1436509052.249713)  vcan0  123   [4]  DE AD BE EF\n").fault ==
+        "the output of candump for the screen; candump -l or -L writes a log");
+  CHECK(read("\xEF\xBB\xBF\r\n\r\nbase hex timestamps absolute\n1.0 1 123 Rx d 0\n").frames ==
+        Texts{"1000000 1 123# R"});
   CHECK(read("").fault == "the file is empty");
   const std::string unknown = "unknown format; candump logs (candump -l), pcapng, pcap and ASC files can be read";
   CHECK(read("PK\x03\x04").fault == unknown);
   CHECK(read("hello").fault == unknown);
-  CHECK(read(std::string(10000, ' ')).fault == unknown);
+  CHECK(read(std::string(10000, ' ')).fault == "the file is empty");
 }
 
 TEST_CASE("log: the writers write the bytes that candump and the draft of pcapng define") {

@@ -20,12 +20,12 @@ bool parse_identifier(std::string_view text, std::uint32_t& identifier) {
     return false;
   }
   if (text.size() == 3) {
-    return identifier <= longest_base_id;
+    return identifier <= max_base_id;
   }
-  if ((identifier & ~longest_id) == CO_IF_FRM_ERROR) {
+  if ((identifier & ~max_extended_id) == CO_IF_FRM_ERROR) {
     return true;
   }
-  const bool is_valid = text.size() == 8 && identifier <= longest_id;
+  const bool is_valid = text.size() == 8 && identifier <= max_extended_id;
   identifier |= CO_IF_FRM_EXT;
   return is_valid;
 }
@@ -56,10 +56,14 @@ class CandumpReader : public LogReader {
 
   std::optional<Entry> next() override {
     bool is_whole = true;
-    while (input_.read_line(line_, is_whole)) {
+    while (fault_.empty() && input_.read_line(line_, is_whole)) {
       split(line_, 5, words_);
       if (words_.empty()) {
         continue;
+      }
+      if (words_.size() > 3 && words_[3].front() == '[') {
+        fault_ = "the output of candump for the screen; candump -l or -L writes a log";
+        return std::nullopt;
       }
       Entry entry;
       const Parsed parsed = is_whole ? parse(entry) : Parsed::malformed;
@@ -71,6 +75,9 @@ class CandumpReader : public LogReader {
       } else if (words_.front() != drop_count || !note_lost()) {
         ++malformed_;
       }
+    }
+    if (input_.is_broken()) {
+      fault_ = "the file cannot be read to its end";
     }
     return std::nullopt;
   }
@@ -111,7 +118,7 @@ class CandumpReader : public LogReader {
 
 class CandumpWriter : public LogWriter {
  public:
-  CandumpWriter(std::ostream& stream, std::string_view channel) : stream_(stream), channel_(channel) {}
+  CandumpWriter(std::ostream& stream, std::string_view channel) : stream_(stream), channel_(channel_name(channel)) {}
 
   void write(const Entry& entry) override {
     const char* const direction = entry.direction == Direction::unknown ? ""
@@ -140,7 +147,7 @@ std::string to_text(const CO_IF_FRM& frame) {
   const std::uint32_t id = frame.Identifier & (CO_IF_FRM_ID | CO_IF_FRM_ERROR);
   std::string text = is_wide ? fmt::format("{:08X}#", id) : fmt::format("{:03X}#", id);
   if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
-    return text + 'R' + (frame.DLC == 0 ? "" : std::to_string(frame.DLC));
+    return text + 'R' + (frame.DLC == 0 ? "" : std::to_string(std::min<unsigned>(frame.DLC, 8)));
   }
   for (unsigned n = 0; n < std::min<unsigned>(frame.DLC, 8); ++n) {
     text += fmt::format("{:02X}", frame.Data[n]);
@@ -151,6 +158,9 @@ std::string to_text(const CO_IF_FRM& frame) {
 Parsed parse_frame(std::string_view text, CO_IF_FRM& frame) {
   frame = {};
   const std::size_t mark = text.find('#');
+  if (mark == 5 && text.find(':') != std::string_view::npos) {
+    return Parsed::other_frame;  // CAN XL
+  }
   if ((mark != 3 && mark != 8) || !parse_identifier(text.substr(0, mark), frame.Identifier)) {
     return Parsed::malformed;
   }
@@ -159,12 +169,15 @@ Parsed parse_frame(std::string_view text, CO_IF_FRM& frame) {
     return Parsed::other_frame;
   }
   // A code of 9 to F in place of the length 8 has no meaning in CANopen.
-  if (text.size() >= 2 && text[text.size() - 2] == '_') {
-    text.remove_suffix(2);
+  unsigned code = 0;
+  const bool has_code = text.size() >= 2 && text[text.size() - 2] == '_';
+  if (has_code && (!parse_number(text.substr(text.size() - 1), code, 16) || code < 9)) {
+    return Parsed::malformed;
   }
+  text.remove_suffix(has_code ? 2 : 0);
   const bool is_remote = !text.empty() && (text.front() == 'R' || text.front() == 'r');
   const bool is_valid = is_remote ? parse_remote(text.substr(1), frame) : parse_data(text, frame);
-  return is_valid ? Parsed::frame : Parsed::malformed;
+  return is_valid && (!has_code || frame.DLC == 8) ? Parsed::frame : Parsed::malformed;
 }
 
 std::unique_ptr<LogReader> read_candump(LogInput input) { return std::make_unique<CandumpReader>(std::move(input)); }

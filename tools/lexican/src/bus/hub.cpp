@@ -53,7 +53,7 @@ bool make_directory(const std::string& path, std::string& why) {
     why = "the directory " + path + " cannot be created: " + std::strerror(errno);
   } else if (lstat(path.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != geteuid() ||
              (found.st_mode & 077U) != 0) {
-    why = path + " has to be a directory of this user that nobody else may enter (chmod 700)";
+    why = path + " has to be a directory of this user that others may not enter (chmod 700)";
   }
   return why.empty();
 }
@@ -136,7 +136,7 @@ int connect_or_start(const std::string& path, std::string& why) {
   return fd;
 }
 
-/// Removes the path of a server that nobody uses.
+/// Removes the path of a server without clients.
 /// \retval false  a client has connected at this moment
 bool is_ended(HubServer& server) {
   const Lock lock(server.path());

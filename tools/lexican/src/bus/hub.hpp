@@ -12,7 +12,8 @@
 ///   server, frames lost:  'L', 3 bytes 0, their number (4 bytes)
 ///
 /// Numbers are little-endian. The sender of a frame does not receive it. A program that sends faster than the hub
-/// forwards has to wait; a program that reads too slowly loses frames, which are counted, and delays nobody.
+/// forwards has to wait; a program that reads too slowly loses frames, which are counted, and does not delay the
+/// others.
 #pragma once
 
 #include <array>

@@ -40,7 +40,7 @@ inline bool frame_of(const HubMessage& message, CO_IF_FRM& frame) {
   frame.DLC = message[1];
   std::memcpy(frame.Data, &message[16], sizeof frame.Data);
   const bool is_base = (frame.Identifier & (CO_IF_FRM_EXT | CO_IF_FRM_ERROR)) == 0;
-  return frame.DLC <= 8 && (!is_base || (frame.Identifier & longest_id) <= longest_base_id);
+  return frame.DLC <= 8 && (!is_base || (frame.Identifier & max_extended_id) <= max_base_id);
 }
 
 /// \retval false  the path is too long for a socket

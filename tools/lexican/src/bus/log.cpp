@@ -10,31 +10,48 @@ namespace {
 
 bool begins_with(std::string_view text, std::string_view begin) { return text.substr(0, begin.size()) == begin; }
 
-bool ends_with(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
+constexpr std::string_view pcapng_magic = "\x0A\x0D\x0D\x0A";
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// Reads bytes up to the first one that is neither blank nor the end of a line, and three more.
+/// Reads the first four bytes; of a text the first four behind a byte order mark, spaces and empty lines.
 std::string first_bytes(std::istream& stream) {
-  constexpr std::size_t most_blanks = 4096;
+  constexpr std::size_t max_blanks = 4096;
   std::string bytes;
-  std::size_t blanks = 0;
-  while (bytes.size() < blanks + 4 && blanks < most_blanks) {
-    const int byte = stream.rdbuf()->sbumpc();
+  for (std::size_t blanks = 0; bytes.size() < 4 && blanks < max_blanks;) {
+    const int byte = stream.get();
     if (byte == std::istream::traits_type::eof()) {
       break;
     }
     bytes += static_cast<char>(byte);
-    // The blocks of pcapng begin with a line feed.
-    blanks += blanks + 1 == bytes.size() && (byte == ' ' || byte == '\t' || byte == '\r') ? 1U : 0U;
+    if (bytes != pcapng_magic.substr(0, bytes.size())) {
+      const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
+      const std::size_t number =
+          begins_with(bytes, byte_order_mark) ? byte_order_mark.size() : std::min(begin, bytes.size());
+      bytes.erase(0, number);
+      blanks += number;
+    }
   }
   return bytes;
+}
+
+/// Returns advice for files that are not read.
+const char* advice_for(std::string_view bytes) {
+  if (begins_with(bytes, "LOGG")) {
+    return "a BLF file of Vector; convert it to ASC, or with can_logconvert of python-can";
+  }
+  if (begins_with(bytes, "\x1F\x8B")) {
+    return "a compressed file; decompress it with gunzip";
+  }
+  if (begins_with(bytes, ";$FI") || begins_with(bytes, ";")) {
+    return "a trace file of PEAK (TRC); convert it with can_logconvert of python-can";
+  }
+  return "unknown format; candump logs (candump -l), pcapng, pcap and ASC files can be read";
 }
 
 using Reader = std::unique_ptr<LogReader> (*)(LogInput);
 
 Reader reader_of(std::string_view bytes) {
-  if (begins_with(bytes, "\x0A\x0D\x0D\x0A")) {
+  if (bytes == pcapng_magic) {
     return read_pcapng;
   }
   for (const std::string_view magic :
@@ -43,7 +60,6 @@ Reader reader_of(std::string_view bytes) {
       return read_pcap;
     }
   }
-  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
   if (begins_with(bytes, "(") || begins_with(bytes, "DROP")) {
     return read_candump;
   }
@@ -62,9 +78,8 @@ std::size_t LogInput::read(std::uint8_t* bytes, std::size_t size) {
   while (number < size && used_ < begin_.size()) {
     bytes[number++] = static_cast<std::uint8_t>(begin_[used_++]);
   }
-  const std::streamsize more =
-      stream_.rdbuf()->sgetn(reinterpret_cast<char*>(bytes + number), static_cast<std::streamsize>(size - number));
-  return number + static_cast<std::size_t>(std::max<std::streamsize>(more, 0));
+  stream_.read(reinterpret_cast<char*>(bytes + number), static_cast<std::streamsize>(size - number));
+  return number + static_cast<std::size_t>(stream_.gcount());
 }
 
 bool LogInput::read_line(std::string& line, bool& is_whole) {
@@ -75,12 +90,13 @@ bool LogInput::read_line(std::string& line, bool& is_whole) {
     return false;
   }
   for (; byte >= 0 && byte != '\n'; byte = get()) {
-    if (line.size() < LogReader::longest_line) {
+    if (line.size() < LogReader::max_line) {
       line += static_cast<char>(byte);
     } else {
       is_whole = false;
     }
   }
+  is_whole = is_whole && byte == '\n';
   if (!line.empty() && line.back() == '\r') {
     line.pop_back();
   }
@@ -90,10 +106,10 @@ bool LogInput::read_line(std::string& line, bool& is_whole) {
 bool parse_seconds(std::string_view text, Micros& time) {
   const std::size_t point = std::min(text.find('.'), text.size());
   std::uint64_t seconds = 0;
-  if (!parse_number(text.substr(0, point), seconds) || seconds > most_seconds) {
+  if (!parse_number(text.substr(0, point), seconds)) {
     return false;
   }
-  time = seconds * 1'000'000;
+  time = std::min(seconds, max_time / 1'000'000) * 1'000'000;
   if (point == text.size()) {
     return true;
   }
@@ -109,7 +125,7 @@ bool parse_seconds(std::string_view text, Micros& time) {
   for (; digits > 6; --digits) {
     fraction /= 10;
   }
-  time += fraction;
+  time = std::min(time + fraction, max_time);
   return true;
 }
 
@@ -127,29 +143,50 @@ void split(std::string_view line, std::size_t most, std::vector<std::string_view
   }
 }
 
-std::uint16_t LogReader::channel_of(std::string_view name) {
+std::string channel_name(std::string_view name) {
+  constexpr std::size_t max_length = 64;
+  std::string result(name.substr(0, std::min(name.find('\0'), max_length)));
+  std::replace_if(
+      result.begin(), result.end(), [](char c) { return c <= ' ' || c >= '\x7F'; }, '_');
+  return result.empty() ? "can" : result;
+}
+
+std::uint16_t LogReader::channel_of(std::string_view recorded) {
+  const std::string name = channel_name(recorded);
   const auto found = std::find(channels_.begin(), channels_.end(), name);
-  if (found == channels_.end() && channels_.size() < most_channels) {
-    channels_.emplace_back(name);
+  if (found == channels_.end() && channels_.size() < max_channels) {
+    channels_.push_back(name);
     return static_cast<std::uint16_t>(channels_.size() - 1);
   }
   const auto position = static_cast<std::size_t>(found - channels_.begin());
-  return static_cast<std::uint16_t>(std::min(position, most_channels - 1));
+  return static_cast<std::uint16_t>(std::min(position, max_channels - 1));
 }
 
 std::unique_ptr<LogReader> read_log(std::istream& stream, std::string& why) {
+  if (!stream) {
+    why = "the file cannot be opened";
+    return nullptr;
+  }
   std::string bytes = first_bytes(stream);
   const Reader reader = reader_of(bytes);
   if (reader == nullptr) {
-    why = bytes.empty() ? "the file is empty"
-                        : "unknown format; candump logs (candump -l), pcapng, pcap and ASC files can be read";
+    why = stream.bad() ? "the file cannot be read" : bytes.empty() ? "the file is empty" : advice_for(bytes);
     return nullptr;
   }
   return reader({stream, std::move(bytes)});
 }
 
 std::unique_ptr<LogWriter> write_log(std::ostream& stream, std::string_view name, std::string_view channel) {
-  return ends_with(name, ".pcapng") ? write_pcapng(stream, channel) : write_candump(stream, channel);
+  const std::size_t point = std::min(name.rfind('.'), name.size());
+  std::string kind(name.substr(point));
+  std::transform(kind.begin(), kind.end(), kind.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  for (const char* const other : {".pcap", ".asc", ".blf", ".trc", ".gz"}) {
+    if (kind == other) {
+      return nullptr;
+    }
+  }
+  return kind == ".pcapng" ? write_pcapng(stream, channel) : write_candump(stream, channel);
 }
 
 }  // namespace lexican::host_bus

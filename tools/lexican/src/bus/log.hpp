@@ -5,6 +5,7 @@
 /// in use does not depend on their size.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <iosfwd>
 #include <memory>
@@ -17,7 +18,8 @@
 
 namespace lexican::host_bus {
 
-using Micros = std::uint64_t;  ///< microseconds
+using Micros = std::uint64_t;                                          ///< microseconds
+constexpr Micros max_time = (UINT64_MAX / 1'000'000 - 1) * 1'000'000;  ///< later times in a log are read as this one
 
 enum class Direction : std::uint8_t { unknown, received, sent };
 
@@ -31,18 +33,18 @@ struct Entry {
 
 class LogReader {
  public:
-  static constexpr std::size_t most_channels = 64;  ///< further ones count as the last one
-  static constexpr std::size_t longest_line = 4096;
-  static constexpr std::size_t longest_block = 1U << 20;  ///< bytes
+  static constexpr std::size_t max_channels = 64;  ///< frames of further ones have the last one
+  static constexpr std::size_t max_line = 4096;
+  static constexpr std::size_t max_block = 1U << 20;  ///< bytes
 
   virtual ~LogReader() = default;
   /// Reads the next frame.
-  /// \retval nothing  the log has ended; fault() says why, if that is not its regular end
+  /// \retval std::nullopt  the log has ended, see fault()
   virtual std::optional<Entry> next() = 0;
 
-  /// Returns why reading ended; empty: not yet, or at the regular end.
+  /// Returns the error that ended reading; empty before the end, and after a regular end.
   const std::string& fault() const { return fault_; }
-  /// Returns the names of the interfaces in the order of their first use.
+  /// Returns the names of the interfaces in the order of their first frame. They are printable, without spaces.
   const std::vector<std::string>& channels() const { return channels_; }
   /// Returns the number of frames that, according to the log, were lost when it was recorded, before the last entry.
   std::uint64_t lost() const { return lost_; }
@@ -52,7 +54,7 @@ class LogReader {
   std::uint64_t malformed() const { return malformed_; }
 
  protected:
-  std::uint16_t channel_of(std::string_view name);
+  std::uint16_t channel_of(std::string_view recorded);
 
   std::string fault_;
   std::vector<std::string> channels_;
@@ -62,7 +64,7 @@ class LogReader {
 };
 
 /// Recognises the format by the first bytes. \a stream must outlive the reader.
-/// \retval null  the format is unknown; \a why says so
+/// \retval nullptr  the file cannot be read, or its format is unknown; \a why says so, and how to convert it
 std::unique_ptr<LogReader> read_log(std::istream& stream, std::string& why);
 
 class LogWriter {
@@ -73,8 +75,9 @@ class LogWriter {
   virtual void write_lost(Micros time, std::uint32_t number) = 0;
 };
 
-/// The name of a log decides about its format: pcapng if it ends with ".pcapng", else the format of candump.
-/// \a channel: name of the interface. \a stream must outlive the writer, and report its own faults.
+/// Selects the format by the name of the file: pcapng if it ends with ".pcapng", else that of candump. \a channel: name
+/// of the interface; Entry::channel is not used. The caller checks the state of \a stream, which must outlive the
+/// writer. \retval nullptr  the name ends like that of another format (.pcap, .asc, .blf, .trc, .gz)
 std::unique_ptr<LogWriter> write_log(std::ostream& stream, std::string_view name, std::string_view channel);
 
 /// Returns a frame in the notation of candump and cansend: 123#DEADBEEF, 123#R8, 12345678#.
@@ -82,7 +85,7 @@ std::string to_text(const CO_IF_FRM& frame);
 
 enum class Parsed : std::uint8_t { frame, other_frame, malformed };
 
-/// Parses a frame in the notation of candump and cansend.
+/// Parses a frame in the notation of candump and cansend, also an error frame (20000004#...).
 /// \retval Parsed::frame        \a frame holds it
 /// \retval Parsed::other_frame  a CAN FD or CAN XL frame
 /// \retval Parsed::malformed    it is not a frame

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file log_formats.hpp
-/// The formats of log.hpp, one by one, and functions that they share.
+/// The formats of log.hpp, and functions that they share.
 #pragma once
 
 #include <charconv>
 #include <istream>
 #include <ostream>
+#include <utility>
 
 #include "bus/log.hpp"
 
 namespace lexican::host_bus {
 
-constexpr std::uint64_t most_seconds = UINT64_MAX / 1'000'000 - 1;  ///< of a time, so that it fits in Micros
-constexpr std::uint32_t longest_id = 0x1FFFFFFF;
-constexpr std::uint32_t longest_base_id = 0x7FF;
+constexpr std::uint32_t max_extended_id = 0x1FFFFFFF;
+constexpr std::uint32_t max_base_id = 0x7FF;
 
 /// A stream whose first bytes have been read to recognise the format.
 class LogInput {
@@ -25,13 +25,15 @@ class LogInput {
     if (used_ < begin_.size()) {
       return static_cast<unsigned char>(begin_[used_++]);
     }
-    const int byte = stream_.rdbuf()->sbumpc();
+    const int byte = stream_.get();
     return byte == std::istream::traits_type::eof() ? -1 : byte;
   }
+  /// Returns true if the file could not be read to its end.
+  bool is_broken() const { return stream_.bad(); }
   /// Returns the number of bytes read; less than \a size: the stream has ended.
   std::size_t read(std::uint8_t* bytes, std::size_t size);
-  /// Reads a line without its end. \a is_whole: false if it is longer than LogReader::longest_line; it is cut then.
-  /// \retval false  the stream has ended
+  /// Reads a line without its end. \a is_whole: false if it is longer than LogReader::max_line, and therefore cut, or
+  /// if the file ends within it. \retval false  the stream has ended
   bool read_line(std::string& line, bool& is_whole);
 
  private:
@@ -58,6 +60,9 @@ bool parse_number(std::string_view text, T& number, int base = 10) {
 /// Parses a time in seconds with up to nine decimals.
 /// \retval false  it is not such a number
 bool parse_seconds(std::string_view text, Micros& time);
+
+/// Returns a name without spaces, control characters and bytes beyond ASCII, cut at 64 bytes; "can" for an empty one.
+std::string channel_name(std::string_view name);
 
 /// Splits a line at spaces and tabs into at most \a most words. \a words: reused memory.
 void split(std::string_view line, std::size_t most, std::vector<std::string_view>& words);

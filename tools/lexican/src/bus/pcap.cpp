@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pcapng (draft-ietf-opsawg-pcapng) and pcap (draft-ietf-opsawg-pcap) with frames of the link type SocketCAN (227): the
-// CAN-ID with its flags in the order of the network, the length, flags of CAN FD, two bytes, data.
+// CAN-ID with its flags (big-endian), the length, flags of CAN FD, two bytes, data.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -19,7 +19,6 @@ constexpr std::uint32_t byte_order = 0x1A2B3C4D;
 
 constexpr std::uint16_t link_type_socketcan = 227;
 constexpr std::size_t can_header = 8;
-constexpr std::uint8_t flag_fd = 0x04;
 constexpr std::uint8_t flag_xl = 0x80;  // in the place of the length
 
 // Options.
@@ -31,10 +30,14 @@ constexpr std::uint16_t interface_name = 2;
 constexpr std::uint16_t interface_resolution = 9;
 
 constexpr std::uint64_t million = 1'000'000;
+constexpr const char* no_can = "the packets are not CAN frames (link type 227, SocketCAN)";
 
-/// Returns value * million / units without overflow; times beyond most_seconds are shortened.
+/// Returns value * million / units; saturates at max_time.
 Micros micros_of(std::uint64_t value, std::uint64_t units) {
-  const std::uint64_t seconds = std::min(value / units, most_seconds);
+  const std::uint64_t seconds = value / units;
+  if (seconds >= max_time / million) {
+    return max_time;
+  }
   const std::uint64_t rest = value % units;
   const std::uint64_t divisor = units > UINT64_MAX / million ? units / million : 0;
   return seconds * million + (divisor != 0 ? rest / divisor : rest * million / units);
@@ -43,25 +46,25 @@ Micros micros_of(std::uint64_t value, std::uint64_t units) {
 /// Numbers of a file in its byte order.
 class Numbers {
  public:
-  void set_swapped(bool is_swapped) { is_swapped_ = is_swapped; }
+  void set_big_endian(bool is_big_endian) { is_big_endian_ = is_big_endian; }
 
   std::uint16_t two(const std::uint8_t* bytes) const {
     const auto number = static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8);
-    return is_swapped_ ? static_cast<std::uint16_t>(number >> 8 | number << 8) : number;
+    return is_big_endian_ ? static_cast<std::uint16_t>(number >> 8 | number << 8) : number;
   }
   std::uint32_t four(const std::uint8_t* bytes) const {
     const std::uint32_t first = two(bytes);
     const std::uint32_t second = two(bytes + 2);
-    return is_swapped_ ? first << 16 | second : second << 16 | first;
+    return is_big_endian_ ? first << 16 | second : second << 16 | first;
   }
   std::uint64_t eight(const std::uint8_t* bytes) const {
     const std::uint64_t first = four(bytes);
     const std::uint64_t second = four(bytes + 4);
-    return is_swapped_ ? first << 32 | second : second << 32 | first;
+    return is_big_endian_ ? first << 32 | second : second << 32 | first;
   }
 
  private:
-  bool is_swapped_ = false;  // big-endian
+  bool is_big_endian_ = false;  // big-endian
 };
 
 /// Decodes a packet of the link type SocketCAN.
@@ -69,16 +72,18 @@ Parsed parse_packet(const std::uint8_t* bytes, std::size_t size, CO_IF_FRM& fram
   if (size < can_header) {
     return Parsed::malformed;
   }
-  if ((bytes[4] & flag_xl) != 0 || (bytes[5] & flag_fd) != 0 || bytes[4] > 8) {
+  // Programs that do not set flags mark frames of CAN FD by their size.
+  if ((bytes[4] & flag_xl) != 0 || bytes[5] != 0 || bytes[4] > 8 || size == can_header + 64) {
     return Parsed::other_frame;
   }
   Numbers network;
-  network.set_swapped(true);
+  network.set_big_endian(true);
   frame.Identifier = network.four(bytes);
   frame.DLC = bytes[4];
   const bool is_remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
   const bool is_base = (frame.Identifier & (CO_IF_FRM_EXT | CO_IF_FRM_ERROR)) == 0;
-  if ((is_base && (frame.Identifier & longest_id) > longest_base_id) || (!is_remote && size < can_header + frame.DLC)) {
+  if ((is_base && (frame.Identifier & max_extended_id) > max_base_id) ||
+      (!is_remote && size < can_header + frame.DLC)) {
     return Parsed::malformed;
   }
   if (!is_remote) {
@@ -99,14 +104,16 @@ class PacketReader : public LogReader {
     if (number == size) {
       return true;
     }
-    if (number != 0 || is_within) {
+    if (input_.is_broken()) {
+      fault_ = "the file cannot be read to its end";
+    } else if (number != 0 || is_within) {
       fault_ = "the file ends within a packet";
     }
     return false;
   }
 
   bool read_block(std::size_t size) {
-    if (size > longest_block) {
+    if (size > max_block) {
       fault_ = "a packet is longer than a megabyte: the file is damaged";
       return false;
     }
@@ -114,7 +121,18 @@ class PacketReader : public LogReader {
     return read(block_.data(), size, true);
   }
 
-  bool count(Parsed parsed) {
+  /// Reads and ignores a part of a block.
+  bool skip(std::size_t size) {
+    block_.resize(std::min(size, max_block));
+    while (size > 0 && read(block_.data(), std::min(size, block_.size()), true)) {
+      size -= std::min(size, block_.size());
+    }
+    return size == 0;
+  }
+
+  void add_lost(std::uint64_t number) { lost_ += std::min(number, UINT64_MAX - lost_); }
+
+  bool count_packet(Parsed parsed) {
     other_frames_ += parsed == Parsed::other_frame ? 1 : 0;
     malformed_ += parsed == Parsed::malformed ? 1 : 0;
     return parsed == Parsed::frame;
@@ -141,7 +159,7 @@ class PcapReader : public PacketReader {
     while (read(head.data(), head.size(), false) && read_block(numbers_.four(&head[8]))) {
       Entry entry;
       entry.time = numbers_.four(head.data()) * million + micros_of(numbers_.four(&head[4]), units_);
-      if (count(parse_packet(block_.data(), block_.size(), entry.frame))) {
+      if (count_packet(parse_packet(block_.data(), block_.size(), entry.frame))) {
         entry.channel = channel_of("can");
         return entry;
       }
@@ -156,10 +174,10 @@ class PcapReader : public PacketReader {
     if (!read(head.data(), head.size(), true)) {
       return false;
     }
-    numbers_.set_swapped(head[0] == 0xA1);
+    numbers_.set_big_endian(head[0] == 0xA1);
     units_ = (numbers_.four(head.data()) & 0xFFFF) == 0x3C4D ? 1000 * million : million;
     if ((numbers_.four(&head[20]) & 0xFFFF) != link_type_socketcan) {
-      fault_ = "the packets are not CAN frames (link type 227, SocketCAN)";
+      fault_ = no_can;
     }
     return fault_.empty();
   }
@@ -182,6 +200,9 @@ class PcapngReader : public PacketReader {
         return entry;
       }
     }
+    if (fault_.empty() && has_other_packets_ && channels_.empty()) {
+      fault_ = no_can;
+    }
     return std::nullopt;
   }
 
@@ -189,19 +210,20 @@ class PcapngReader : public PacketReader {
   struct Interface {
     bool is_can = false;
     std::uint64_t units = million;  ///< of time stamps, per second
-    std::uint16_t channel = 0;
+    std::string name{};
     std::uint64_t lost = 0;  ///< according to the last statistics
   };
+  static constexpr std::size_t max_interfaces = 1024;
 
   /// Reads the rest of a block into block_, without the length at its end.
   bool is_block(const std::array<std::uint8_t, 8>& head) {
     std::array<std::uint8_t, 4> magic{};
-    const bool is_section = numbers_.four(head.data()) == section_header;  // the same in both byte orders
+    const bool is_section = numbers_.four(head.data()) == section_header;  // reads identically in both byte orders
     if (is_section) {
       if (!read(magic.data(), magic.size(), true)) {
         return false;
       }
-      numbers_.set_swapped(magic[0] == (byte_order >> 24));
+      numbers_.set_big_endian(magic[0] == (byte_order >> 24));
       interfaces_.clear();
       if (numbers_.four(magic.data()) != byte_order) {
         fault_ = "a section has no byte-order magic: the file is damaged";
@@ -214,11 +236,20 @@ class PcapngReader : public PacketReader {
       fault_ = "a block has an impossible length: the file is damaged";
       return false;
     }
+    if (is_section || !is_used(numbers_.four(head.data()))) {
+      skip(length - read_already);
+      return false;
+    }
     if (!read_block(length - read_already)) {
       return false;
     }
     block_.resize(block_.size() - 4);
-    return !is_section;
+    return true;
+  }
+
+  static bool is_used(std::uint32_t type) {
+    return type == interface_description || type == interface_statistics || type == simple_packet ||
+           type == enhanced_packet;
   }
 
   bool is_frame(std::uint32_t type, Entry& entry) {
@@ -246,22 +277,21 @@ class PcapngReader : public PacketReader {
   }
 
   void describe_interface() {
-    if (block_.size() < 8 || interfaces_.size() >= most_channels) {
+    if (block_.size() < 8 || interfaces_.size() >= max_interfaces) {
       ++malformed_;
       return;
     }
     Interface interface;
     interface.is_can = numbers_.two(block_.data()) == link_type_socketcan;
-    std::string name = "can" + std::to_string(interfaces_.size());
+    interface.name = "can" + std::to_string(interfaces_.size());
     for_options(8, [&](std::uint16_t code, const std::uint8_t* bytes, std::size_t size) {
-      if (code == interface_name && size > 0 && size <= 64) {
-        name.assign(bytes, bytes + size);
+      if (code == interface_name && size > 0) {
+        interface.name = channel_name({reinterpret_cast<const char*>(bytes), size});
       } else if (code == interface_resolution && size == 1) {
         interface.units = units_of(bytes[0]);
       }
     });
-    interface.channel = channel_of(name);
-    interfaces_.push_back(interface);
+    interfaces_.push_back(std::move(interface));
   }
 
   /// Returns the time stamps per second; finer resolutions than 64 bits can count are regarded as the finest.
@@ -290,46 +320,62 @@ class PcapngReader : public PacketReader {
     for_options(12, [&](std::uint16_t code, const std::uint8_t* bytes, std::size_t size) {
       if (code == statistics_drops && size == 8) {
         const std::uint64_t total = numbers_.eight(bytes);
-        lost_ += total > interface->lost ? total - interface->lost : 0;
+        add_lost(total > interface->lost ? total - interface->lost : 0);
         interface->lost = total;
       }
     });
   }
 
   bool is_simple(Entry& entry) {
-    const Interface* const interface = interface_of(0);
-    if (interface == nullptr || block_.size() < 4) {
-      return count(Parsed::malformed);
+    const Interface* const interface = block_.size() < 4 ? nullptr : interface_of(0);
+    if (interface == nullptr) {
+      return count_unusable(0, block_.size() >= 4);
     }
     const std::size_t size = std::min<std::size_t>(numbers_.four(block_.data()), block_.size() - 4);
     entry.time = last_;
-    entry.channel = interface->channel;
-    return count(parse_packet(block_.data() + 4, size, entry.frame));
+    return parse(*interface, block_.data() + 4, size, entry);
   }
 
   bool is_enhanced(Entry& entry) {
     Interface* const interface = block_.size() < 20 ? nullptr : interface_of(numbers_.four(block_.data()));
     const std::size_t size = block_.size() < 20 ? 0 : numbers_.four(&block_[12]);
     if (interface == nullptr || size > block_.size() - 20) {
-      return count(Parsed::malformed);
+      return count_unusable(block_.size() < 20 ? 0 : numbers_.four(block_.data()), block_.size() >= 20);
     }
     const std::uint64_t stamp = std::uint64_t{numbers_.four(&block_[4])} << 32 | numbers_.four(&block_[8]);
     last_ = entry.time = micros_of(stamp, interface->units);
-    entry.channel = interface->channel;
     for_options(20 + (size + 3) / 4 * 4, [&](std::uint16_t code, const std::uint8_t* bytes, std::size_t length) {
       if (code == packet_flags && length == 4) {
         const unsigned direction = numbers_.four(bytes) & 3U;
         entry.direction = direction == 1 ? Direction::received : direction == 2 ? Direction::sent : Direction::unknown;
       } else if (code == packet_drops && length == 8) {
-        lost_ += numbers_.eight(bytes);
-        interface->lost += numbers_.eight(bytes);
+        add_lost(numbers_.eight(bytes));
+        interface->lost += std::min(numbers_.eight(bytes), UINT64_MAX - interface->lost);
       }
     });
-    return count(parse_packet(block_.data() + 20, size, entry.frame));
+    return parse(*interface, block_.data() + 20, size, entry);
+  }
+
+  bool parse(const Interface& interface, const std::uint8_t* bytes, std::size_t size, Entry& entry) {
+    if (!count_packet(parse_packet(bytes, size, entry.frame))) {
+      return false;
+    }
+    entry.channel = channel_of(interface.name);
+    return true;
+  }
+
+  /// Counts a packet that is malformed; packets of interfaces that are not for CAN are ignored.
+  bool count_unusable(std::uint32_t interface, bool has_header) {
+    if (has_header && interface < interfaces_.size() && !interfaces_[interface].is_can) {
+      has_other_packets_ = true;
+      return false;
+    }
+    return count_packet(Parsed::malformed);
   }
 
   std::vector<Interface> interfaces_;  // of the section
   Micros last_ = 0;                    // simple packets have no time
+  bool has_other_packets_ = false;
 };
 
 /// Writes a block: numbers are added one after the other, in the order little-endian.
@@ -372,7 +418,7 @@ class PcapngWriter : public LogWriter {
         .add(link_type_socketcan, 2)
         .add(0, 2)
         .add(0)
-        .add_option(interface_name, channel.substr(0, 64))
+        .add_option(interface_name, channel_name(channel))
         .add(end_of_options)
         .write_to(stream_);
   }
@@ -384,7 +430,7 @@ class PcapngWriter : public LogWriter {
     for (int shift = 24; shift >= 0; shift -= 8) {
       packet += static_cast<char>(frame.Identifier >> shift);
     }
-    packet += static_cast<char>(frame.DLC);
+    packet += static_cast<char>(std::min<unsigned>(frame.DLC, 8));
     packet.append(3, '\0');
     packet.append(reinterpret_cast<const char*>(frame.Data), is_remote ? 0 : std::min<unsigned>(frame.DLC, 8));
     Block block(enhanced_packet);
