@@ -252,7 +252,7 @@ TEST_CASE("log: pcap, both byte orders, microseconds and nanoseconds") {
             .fault == "a packet is longer than a megabyte: the file is damaged");
 }
 
-TEST_CASE("log: a file of python-can, which may have frames of CAN FD without the flag FDF") {
+TEST_CASE("log: pcap, frames of CAN FD without the flag FDF are recognised by their size") {
   const std::string padding(124, '0');
   const std::string begin =
       "D4C3B2A1 0200 0400 00000000 00000000 00000400 E3000000 01000000 00000000 48000000 48000000 ";
