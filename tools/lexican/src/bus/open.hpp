@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file open.hpp
+/// Opens a bus by its name, the same in each verb (-i BUS).
+#pragma once
+
+#include "bus/bus.hpp"
+
+namespace lexican::host_bus {
+
+struct BusOptions {
+  std::uint32_t bit_rate = 0;  ///< bit/s; 0: that of the name, else that of the adapter. An adapter may not have it.
+  bool listens_only = false;   ///< nothing is sent, and an adapter that can do so acknowledges nothing either
+};
+
+/// A kind of bus.
+struct BusKind {
+  const char* prefix;   ///< that a name begins with, such as "hub:"
+  const char* example;  ///< a complete name
+  const char* about;    ///< a line for --help
+  /// \a name: behind the prefix. Returns null, with the reason in \a why, if it cannot be opened.
+  std::unique_ptr<Bus> (*open)(const std::string& name, const BusOptions& options, std::string& why);
+};
+
+/// The kinds. The last one has an empty prefix.
+extern const std::vector<BusKind> bus_kinds;
+
+/// Opens a bus. It does not send if \a options says so, also where the adapter cannot listen only.
+/// \retval null  \a why says why, and the remedy
+std::unique_ptr<Bus> open_bus(const std::string& name, const BusOptions& options, std::string& why);
+
+/// Opens an interface of Linux, such as can0.
+/// \retval null  \a why says why
+std::unique_ptr<Bus> open_socketcan(const std::string& name, const BusOptions& options, std::string& why);
+
+}  // namespace lexican::host_bus

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Buses by name.
+#include "bus/open.hpp"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <string>
+
+namespace {
+
+using namespace lexican::host_bus;
+
+TEST_CASE("open_bus: a name selects the kind of bus, and listening does not send") {
+  const std::string name = "hub:open-" + std::to_string(getpid());
+  std::string why;
+  const std::unique_ptr<Bus> sender = open_bus(name, {}, why);
+  const std::unique_ptr<Bus> listener = open_bus(name, {0, true}, why);
+  REQUIRE_MESSAGE((sender != nullptr && listener != nullptr), why);
+  CHECK(!sender->is_physical());
+  CHECK(!listener->is_physical());
+  CHECK(!listener->send({0x123, {}, 0}));
+  REQUIRE(sender->send({0x321, {}, 0}));
+  pollfd wait = listener->wanted();
+  poll(&wait, 1, 1000);
+  const std::optional<Entry> entry = listener->receive();
+  REQUIRE(entry);
+  CHECK(entry->frame.Identifier == 0x321);
+  CHECK(!sender->receive());
+}
+
+TEST_CASE("open_bus: a bus that cannot be opened is named with the reason") {
+  std::string why;
+  CHECK(open_bus("hub:../x", {}, why) == nullptr);
+  CHECK(why == "the name of a hub has 1 to 40 letters, digits, - and _");
+  CHECK(open_bus("no-such-can", {}, why) == nullptr);
+  CHECK_MESSAGE((why.find("no-such-can") != std::string::npos || why.find("CAN") != std::string::npos), why);
+  CHECK(open_bus("", {}, why) == nullptr);
+  CHECK(!why.empty());
+}
+
+}  // namespace
