@@ -14,15 +14,18 @@ lane() {
 # demo/stm32 compiles without a warning and fits the memories; demo/memory
 
 stm32() {
-  local source=demo/stm32
-  build_tree stm32-nucleo_f446re --toolchain "$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_PRESET=slave \
-    -DLEXICAN_CPU=cortex-m4 -DLEXICAN_BOARD=nucleo_f446re && pass &&
-    check "an oscillator that does not start: the LED blinks" blinks_without_oscillator "$build/stm32-nucleo_f446re/node.elf"
+  check "the firmware of docs/hardware.md for nucleo_f446re" other_board nucleo_f446re &&
+    check "an oscillator that does not start: the LED blinks" blinks_without_oscillator "$copy/../firmware/build/node.elf"
   compile_memory flash_stm32 cortex-m4 flash_pages
   compile_memory flash_stm32h7 cortex-m7 flash_pages
   compile_memory eeprom_i2c_pins cortex-m0 flash_pages eeprom_i2c eeprom_spi
   compile_memory eeprom_spi_pins cortex-m0 flash_pages eeprom_i2c eeprom_spi
   compile_memory node cortex-m0
+}
+
+# Builds the firmware of the pages for another board with the same CPU.
+other_board() {  # BOARD
+  cmake -D LEXICAN_BOARD="$1" "$copy/../firmware/build" && cmake --build "$copy/../firmware/build"
 }
 
 # Runs the firmware of nucleo_f446re on QEMU's STM32F405, which has no RCC: GPIOA_BSRR sets and resets PA5.

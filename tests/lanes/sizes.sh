@@ -11,14 +11,13 @@ lane() {
   local cpu preset
   for cpu in rv32 m4 m0plus; do
     choose_cpu $cpu
-    build_library "sizes-$cpu" "-Os ${lto[*]}" -DLEXICAN_SIZES=ON -DLEXICAN_DRIVERS=ON "${configure[@]}" || return
+    build_library "sizes-$cpu" "-Os ${lto[*]}" -DLEXICAN_SIZES=ON -DLEXICAN_DRIVERS=$drivers "${configure[@]}" || return
     rm -f "$of-$cpu" "$of-$cpu-lto"
     for preset in "${presets[@]}"; do
       size_of_node $cpu "$preset" || return
     done
-    rm -f "$of-$cpu-drivers" "$of-$cpu-drivers-ram"
-    size_of_drivers || return
   done
+  size_of_drivers || return
   sizes_of_one_file
   size_of_memory && size_of_things || return
   report_nodes
@@ -31,10 +30,12 @@ lane() {
 }
 
 # Sets the tools for the functions below. The objects contain machine code and the data for link-time optimisation.
+# Drivers are measured on one CPU.
 choose_cpu() {  # CPU
   local core
+  drivers=OFF
   case $1 in
-    m0plus) tools=arm-none-eabi core=cortex-m0plus toolchain=arm-none-eabi ;;
+    m0plus) tools=arm-none-eabi core=cortex-m0plus toolchain=arm-none-eabi drivers=ON ;;
     m4) tools=arm-none-eabi core=cortex-m4 toolchain=arm-none-eabi ;;
     rv32) tools=riscv64-unknown-elf core=rv32imac toolchain=riscv32-none-elf ;;
   esac
@@ -127,7 +128,8 @@ link_node() {  # TREE/LIBRARY PROGRAM EVERYTHING FLAG...: links PROGRAM.o
     -Wl,-e,main >"$of.log" 2>&1
 }
 
-size_of_drivers() {  # of $cpu
+size_of_drivers() {
+  rm -f "$of-drivers" "$of-drivers-ram"
   driver "CAN: bxCAN" can/bxcan co_can_bxcan Bxcan CO_CAN_BXCAN &&
     driver "CAN: FDCAN" can/fdcan co_can_fdcan Fdcan CO_CAN_FDCAN &&
     driver "CAN: M_CAN" can/fdcan co_can_fdcan Mcan CO_CAN_FDCAN &&
@@ -151,15 +153,15 @@ size_of_drivers() {  # of $cpu
 
 # Links the source files of a driver whose public names match, those that they use, and a context.
 driver() {  # NAME DIRECTORY HEADER NAMES [CONTEXT]
-  local library=$build/sizes-$cpu/drivers/liblexican_${2/\//_}.a keep
+  local library=$build/sizes-m0plus/drivers/liblexican_${2/\//_}.a keep
   mapfile -t keep < <("$tools-nm" -fposix "$library" 2>/dev/null |
     awk -v of="$4" '$1 ~ of && $1 !~ /^_/ && $2 ~ /^[TRD]$/ { print "-Wl,--undefined=" $1 }')
   printf '#include "%s.h"\n%s\n' "$3" "${5:+$5 context;}" >"$of-driver.c"
   "${compile[@]}" -Wall -Werror -std=c11 -I "$root/include" -I "$root/config" -I "$root/drivers/${2%/*}" -I "$root/drivers/$2" \
     -c "$of-driver.c" -o "$of-context.o" >"$of.log" 2>&1 &&
     "${compile[@]/--specs=*/-r}" -r -nostdlib -fno-lto "${keep[@]}" "$of-context.o" "$library" \
-      -o "$of-driver.o" >"$of.log" 2>&1 || { fail "link of the driver $1, $cpu" "$of.log"; return 1; }
-  "$tools-size" -A "$of-driver.o" | awk -v name="$1" -v file="$of-$cpu-drivers" '
+      -o "$of-driver.o" >"$of.log" 2>&1 || { fail "link of the driver $1" "$of.log"; return 1; }
+  "$tools-size" -A "$of-driver.o" | awk -v name="$1" -v file="$of-drivers" '
     $1 ~ /^[.]s?(text|rodata|data)/ { flash += $2 } $1 ~ /^[.]s?(data|bss)/ { ram += $2 }
     END { print name "\t" flash >>file; print name "\t" ram + 0 >>(file "-ram") }'
 }
@@ -274,9 +276,7 @@ report_things() {
 }
 
 report_drivers() {
-  report drivers "driver" --percent 1 --slack 16 --column "Cortex-M0+" "$arm" "$of-m0plus-drivers" \
-    --column "Cortex-M4" "$arm" "$of-m4-drivers" --column "rv32imac" "$riscv" "$of-rv32-drivers" \
-    --column "RAM" "$arm" "$of-m0plus-drivers-ram"
+  report drivers "driver" --percent 1 --slack 16 --column "flash" "$arm" "$of-drivers" --column "RAM" "$arm" "$of-drivers-ram"
 }
 
 # Evaluates the functions of the C run time, too, which a program with the whole library contains.
