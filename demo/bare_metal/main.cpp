@@ -8,7 +8,7 @@
 #include "co_slcan.h"
 #include "parts.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 constexpr std::uint8_t node_id = 1;  // until LSS stores another one
@@ -83,30 +83,30 @@ void sleep_until_due() {
 
 }  // namespace
 
-}  // namespace demo
+}  // namespace lexican::demo
 
 // Objects that the generated dictionary refers to and the program defines (clock/dictionary.hpp).
-CO_OBJ_STR clock_1009_0 = {0, demo::hardware};
-CO_OBJ_DOM clock_2200_0 = {0, sizeof demo::picture, demo::picture};
+CO_OBJ_STR clock_1009_0 = {0, lexican::demo::hardware};
+CO_OBJ_DOM clock_2200_0 = {0, sizeof lexican::demo::picture, lexican::demo::picture};
 
 namespace board {
 
-void on_uart() { demo::uart_interrupt(demo::can); }
+void on_uart() { lexican::demo::uart_interrupt(lexican::can); }
 
 void on_timer() {
-  demo::timer_interrupt();
-  COTmrService(&demo::node.Tmr);
+  lexican::demo::timer_interrupt();
+  COTmrService(&lexican::node.Tmr);
 }
 
 }  // namespace board
 
 // Disable and enable interrupts around accesses of the stack to its timers; calls are not nested.
-void COTmrLock() { demo::interrupts_before_lock = board::disable_interrupts(); }
-void COTmrUnlock() { board::restore_interrupts(demo::interrupts_before_lock); }
+void COTmrLock() { lexican::demo::interrupts_before_lock = board::disable_interrupts(); }
+void COTmrUnlock() { board::restore_interrupts(lexican::demo::interrupts_before_lock); }
 
 #if USE_LSS && USE_PARA
-CO_ERR COLssLoad(std::uint32_t* baud, std::uint8_t* nodeId) { return COLssNvmLoad(&demo::node, 0, baud, nodeId); }
-CO_ERR COLssStore(std::uint32_t baud, std::uint8_t nodeId) { return COLssNvmStore(&demo::node, 0, baud, nodeId); }
+CO_ERR COLssLoad(std::uint32_t* baud, std::uint8_t* nodeId) { return COLssNvmLoad(&lexican::node, 0, baud, nodeId); }
+CO_ERR COLssStore(std::uint32_t baud, std::uint8_t nodeId) { return COLssNvmStore(&lexican::node, 0, baud, nodeId); }
 #endif
 
 void CONodeFatalError() {
@@ -115,7 +115,8 @@ void CONodeFatalError() {
 }
 
 int main() {
-  using namespace demo;
+  using namespace lexican;
+  using namespace lexican::demo;
   board::disable_interrupts();
   CONvmRamClear(&memory);
   COSlcanInit(&can, frames, frames_received, start_sending, &can);

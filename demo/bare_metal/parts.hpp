@@ -9,7 +9,7 @@
 #include "co_if_timer.h"
 #include "co_slcan.h"
 
-namespace demo {
+namespace lexican::demo {
 
 /// Initialises the UART, 115200 bit/s, 8 data bits, no parity, and enables its interrupt.
 void uart_begin();
@@ -35,4 +35,4 @@ void timer_interrupt();
 
 constexpr std::uint32_t uart_speed = 115200;  // bit/s
 
-}  // namespace demo
+}  // namespace lexican::demo

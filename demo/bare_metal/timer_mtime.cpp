@@ -3,7 +3,7 @@
 #include "co_timer_mtime.h"
 #include "parts.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 volatile std::uint32_t* registers(std::uintptr_t offset) {
@@ -23,4 +23,4 @@ BoardTimer board_timer() {
 // COTmrService(), which the interrupt handler calls next, sets the next alarm: that ends the request of the interrupt.
 void timer_interrupt() {}
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -3,7 +3,7 @@
 #include "co_timer_nrf51.h"
 #include "parts.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 CO_NRF51_TIMER timer = {reinterpret_cast<CO_NRF51_TIMER_REGS*>(board::timer_base)};
@@ -18,4 +18,4 @@ BoardTimer board_timer() {
 // COTmrService(), which the interrupt handler calls next, sets the next alarm: that clears the event of the timer.
 void timer_interrupt() {}
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -3,7 +3,7 @@
 #include "co_timer_systick.h"
 #include "parts.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 CO_SYSTICK timer = {CO_SYSTICK_REGISTERS, CO_SYSTICK_CONTROL, board::core_hz, {}, 0, 0, 0, 0};
@@ -14,4 +14,4 @@ BoardTimer board_timer() { return {&SysTickDriver, &timer}; }
 
 void timer_interrupt() { COSysTickInterrupt(&timer); }
 
-}  // namespace demo
+}  // namespace lexican::demo

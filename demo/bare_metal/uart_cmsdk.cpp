@@ -3,7 +3,7 @@
 #include "board.hpp"
 #include "parts.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 struct Registers {
@@ -52,4 +52,4 @@ void uart_interrupt(CO_SLCAN& can) {
 
 bool uart_wakes_cpu() { return true; }
 
-}  // namespace demo
+}  // namespace lexican::demo

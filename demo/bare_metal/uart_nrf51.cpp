@@ -3,7 +3,7 @@
 #include "board.hpp"
 #include "parts.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 // Offsets of registers: tasks, events, settings and data of the UART.
@@ -87,4 +87,4 @@ bool uart_wakes_cpu() {
   return !sending;
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

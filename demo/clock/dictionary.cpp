@@ -3,7 +3,7 @@
 
 #include "co_ver.h"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 static_assert(CLOCK_PARA_BASE >= lss_memory_size && CLOCK_PARA_END <= clock_memory_size,
@@ -54,10 +54,10 @@ Table clock_dictionary() { return {const_cast<CO_OBJ*>(clock_od), CLOCK_OD_NUM};
 
 Errors clock_errors() { return {errors, number_of_errors}; }
 
-}  // namespace demo
+}  // namespace lexican::demo
 
-const CO_OBJ_TYPE clock_2100_1_type = demo::figure_type;
-const CO_OBJ_TYPE clock_2100_2_type = demo::figure_type;
-const CO_OBJ_TYPE clock_2100_3_type = demo::figure_type;
+const CO_OBJ_TYPE clock_2100_1_type = lexican::demo::figure_type;
+const CO_OBJ_TYPE clock_2100_2_type = lexican::demo::figure_type;
+const CO_OBJ_TYPE clock_2100_3_type = lexican::demo::figure_type;
 
-CO_OBJ_STR clock_100A_0 = {0, demo::software_version};
+CO_OBJ_STR clock_100A_0 = {0, lexican::demo::software_version};

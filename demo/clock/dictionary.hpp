@@ -9,7 +9,7 @@
 #include "clock/time_of_day.hpp"
 #include "host/table.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 constexpr std::uint32_t clock_product_code = 0xC10C;
 constexpr std::uint32_t clock_serial_number = 1;
@@ -27,4 +27,4 @@ Table clock_dictionary();
 /// Errors of the clock: invalid hour, minute and second.
 Errors clock_errors();
 
-}  // namespace demo
+}  // namespace lexican::demo

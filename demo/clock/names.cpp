@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace demo {
+namespace lexican::demo {
 
 trace::Mappings clock_mappings() {
   const std::vector<trace::Mapped> time = {{0x2100, 1, 1}, {0x2100, 2, 1}, {0x2100, 3, 1}};
@@ -50,4 +50,4 @@ const trace::Names& clock_object_names() {
   return names;
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -5,11 +5,11 @@
 
 #include "trace/decode.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 /// Returns the names of the objects, for the trace.
 const trace::Names& clock_object_names();
 /// Returns the objects mapped to the PDOs of the clock.
 trace::Mappings clock_mappings();
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -3,7 +3,7 @@
 
 #include "clock/generated/clock_od.h"
 
-namespace demo {
+namespace lexican::demo {
 
 namespace {
 
@@ -35,4 +35,4 @@ void clock_tick(void* node) {
   COTPdoRequest(static_cast<CO_NODE*>(node), 0);
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace demo {
+namespace lexican::demo {
 
 /// Time of day, object 2100h.
 struct TimeOfDay {
@@ -22,4 +22,4 @@ void set_clock_time(TimeOfDay time);
 /// action of a cyclic timer of 1 s. \a node: the CO_NODE.
 void clock_tick(void* node);
 
-}  // namespace demo
+}  // namespace lexican::demo

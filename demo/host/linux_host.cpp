@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 volatile sig_atomic_t interrupted = 0;
@@ -76,4 +76,4 @@ std::vector<pollfd> SocketCanHost::poll_descriptors() {
   return {{device_.fd(), POLLIN, 0}, {master_.fd(), POLLIN, 0}};  // -1: not open, which poll() ignores
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

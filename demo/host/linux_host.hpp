@@ -15,7 +15,7 @@
 #include "virtual_bus.hpp"
 #include "virtual_clock.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 /// Stores SIGINT and SIGTERM during its lifetime, instead of ending the program. The signals are unblocked only while
 /// the program waits, so that none is missed between happened() and the wait. One instance at a time.
@@ -94,4 +94,4 @@ class SocketCanHost : public LinuxHost {
   co::SocketCan master_;
 };
 
-}  // namespace demo
+}  // namespace lexican::demo

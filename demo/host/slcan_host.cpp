@@ -13,7 +13,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 // Length of the shortest frame on the line: "t0000" and CR.
@@ -202,4 +202,4 @@ void SlcanHost::close_with_fault(const std::string& why) {
   fault_ = "slcan adapter '" + path_ + "': " + why;
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -10,7 +10,7 @@
 #include "co_slcan.h"
 #include "host/linux_host.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 class SlcanHost : public LinuxHost {
  public:
@@ -52,4 +52,4 @@ class SlcanHost : public LinuxHost {
   CO_SLCAN can_{};
 };
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -16,7 +16,7 @@
 #include "linux_master/options.hpp"
 #include "linux_master/tour.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 int refuse(const std::string& fault) {
@@ -118,12 +118,12 @@ int run_any(const CommandLine& line) {
 }
 
 }  // namespace
-}  // namespace demo
+}  // namespace lexican::demo
 
 int main(int argc, char** argv) {
-  const demo::CommandLine line = demo::read_command_line(argc, argv);
+  const lexican::demo::CommandLine line = lexican::demo::read_command_line(argc, argv);
   if (!line.run) {
     return line.exit_code;
   }
-  return demo::run_any(line);
+  return lexican::demo::run_any(line);
 }

@@ -8,7 +8,7 @@
 #include "co_ver.h"
 #include "trace/text.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 constexpr const char* description =
@@ -169,4 +169,4 @@ CommandLine read_command_line(int argc, char** argv) {
   return line;
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -9,7 +9,7 @@
 #include "client/arguments.hpp"
 #include "host/exit.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 enum class Work { transfer, nmt, lss, tour };
 
@@ -29,4 +29,4 @@ struct CommandLine {
 
 CommandLine read_command_line(int argc, char** argv);
 
-}  // namespace demo
+}  // namespace lexican::demo

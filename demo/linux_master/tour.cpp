@@ -8,7 +8,7 @@
 #include "tour/tour.hpp"
 #include "trace/text.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 // Traits of a small device that may run in a slow emulator.
@@ -49,4 +49,4 @@ int run_clock_tour(std::uint8_t node, Host& host, View::Style style, std::ostrea
   return result.failed.empty() ? exit_ok : exit_failed;
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

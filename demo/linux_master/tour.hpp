@@ -8,10 +8,10 @@
 #include "host/host.hpp"
 #include "tour/view.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 /// Starts a separate node on the bus and runs the tour with the clock whose node-ID is \a node. Prints to \a out.
 /// Returns the exit code.
 int run_clock_tour(std::uint8_t node, Host& host, View::Style style, std::ostream& out);
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 std::uint8_t picture[picture_size];
@@ -28,12 +28,12 @@ std::vector<CO_OBJ> dictionary_with(std::uint32_t serial) {
 }
 
 }  // namespace
-}  // namespace demo
+}  // namespace lexican::demo
 
-CO_OBJ_STR clock_1009_0 = {0, demo::hardware};
-CO_OBJ_DOM clock_2200_0 = {0, demo::picture_size, demo::picture};
+CO_OBJ_STR clock_1009_0 = {0, lexican::demo::hardware};
+CO_OBJ_DOM clock_2200_0 = {0, lexican::demo::picture_size, lexican::demo::picture};
 
-namespace demo {
+namespace lexican::demo {
 
 std::uint32_t serial_number_from(const std::string& text) {
   std::uint32_t hash = 0x811C9DC5;  // FNV-1a
@@ -75,4 +75,4 @@ bool Clock::start() {
   return true;
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

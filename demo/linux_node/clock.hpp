@@ -17,7 +17,7 @@
 #include "host/node.hpp"
 #include "tour/device.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 constexpr DeviceTraits clock_traits = {192, 128, true, 1};
 
@@ -56,4 +56,4 @@ class Clock : public Device {
   std::optional<Node> node_;
 };
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 constexpr std::uint8_t boot_up = 0;
@@ -31,4 +31,4 @@ void HeartbeatWatch::on_sent(const CO_IF_FRM& frame, std::uint32_t tick, std::ui
   ++number_;
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

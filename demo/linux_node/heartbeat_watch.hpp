@@ -7,7 +7,7 @@
 
 #include "co_core.h"
 
-namespace demo {
+namespace lexican::demo {
 
 /// Measures the lateness of heartbeats. The n-th heartbeat is due n heartbeat times after the boot-up message, which
 /// counts as the first [301:7.2.8.2.2.1]; a late one does not shift the others.
@@ -27,4 +27,4 @@ class HeartbeatWatch {
   std::uint32_t greatest_lateness_ = 0;
 };
 
-}  // namespace demo
+}  // namespace lexican::demo

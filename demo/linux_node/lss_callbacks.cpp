@@ -5,7 +5,7 @@
 
 #if USE_LSS
 
-CO_ERR COLssLoad(std::uint32_t* baud, std::uint8_t* nodeId) { return demo::Node::load_lss(baud, nodeId); }
-CO_ERR COLssStore(std::uint32_t baud, std::uint8_t nodeId) { return demo::Node::store_lss(baud, nodeId); }
+CO_ERR COLssLoad(std::uint32_t* baud, std::uint8_t* nodeId) { return lexican::Node::load_lss(baud, nodeId); }
+CO_ERR COLssStore(std::uint32_t baud, std::uint8_t nodeId) { return lexican::Node::store_lss(baud, nodeId); }
 
 #endif

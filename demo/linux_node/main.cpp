@@ -21,7 +21,7 @@
 #include "tour/view.hpp"
 #include "trace/text.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 constexpr const char* default_interface = "vcan0";
@@ -227,9 +227,9 @@ int run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace demo
+}  // namespace lexican::demo
 
 int main(int argc, char** argv) {
-  const demo::CommandLine line = demo::read_command_line(argc, argv);
-  return line.run ? demo::run(line.options) : line.exit_code;
+  const lexican::demo::CommandLine line = lexican::demo::read_command_line(argc, argv);
+  return line.run ? lexican::demo::run(line.options) : line.exit_code;
 }

@@ -8,7 +8,7 @@
 #include "co_ver.h"
 #include "trace/text.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 constexpr const char* unconfigured = "unconfigured";
@@ -74,4 +74,4 @@ CommandLine read_command_line(int argc, char** argv) {
   return {options, true, exit_ok};
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

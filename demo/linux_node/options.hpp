@@ -8,7 +8,7 @@
 
 #include "host/exit.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 struct Options {
   std::string interface;  // SocketCAN; empty: automatic
@@ -31,4 +31,4 @@ struct CommandLine {
 
 CommandLine read_command_line(int argc, char** argv);
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <system_error>
 
-namespace demo {
+namespace lexican::demo {
 
 Storage::Storage() { CONvmRamClear(&ram_); }
 
@@ -37,4 +37,4 @@ Memory Storage::memory() {
   return file_.capacity() != 0 ? Memory{&co::FileNvmDriver, &file_} : Memory{&RamNvmDriver, &ram_};
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -11,7 +11,7 @@
 #include "host/host.hpp"
 #include "linux_node/clock.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 class Storage {
  public:
@@ -34,4 +34,4 @@ class Storage {
   std::string temporary_;  // path, empty: none
 };
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -3,7 +3,7 @@
 
 #include "lexican/dictionary.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 std::uint8_t error_register = 0;
@@ -70,4 +70,4 @@ void run_motor() {
   speed = static_cast<std::int16_t>(now);
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -7,7 +7,7 @@
 
 #include "co_core.h"
 
-namespace demo {
+namespace lexican::demo {
 
 /// Initialises the node. \a drivers: CAN and timer; Size is set here. The dictionary refers to variables by address, so
 /// a program has one drive.
@@ -16,4 +16,4 @@ void make_drive(CO_NODE& node, CO_NODE_EXT& drivers, std::uint8_t node_id);
 /// Simulates a millisecond of the motor: its speed approaches the setpoint and overshoots.
 void run_motor();
 
-}  // namespace demo
+}  // namespace lexican::demo

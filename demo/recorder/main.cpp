@@ -57,7 +57,7 @@ class Bench {
  public:
   Bench() {
     drive_drivers_.CanCtx = &bus_.attach({"drive"});
-    demo::make_drive(drive_, drive_drivers_, drive_id);
+    lexican::demo::make_drive(drive_, drive_drivers_, drive_id);
     CONodeStart(&drive_);
     master_drivers_.CanCtx = &bus_.attach({"master"});
     CO_NODE_SPEC spec = {};
@@ -78,7 +78,7 @@ class Bench {
 
   void run(int milliseconds) {
     for (int n = 0; n < milliseconds; ++n) {
-      demo::run_motor();
+      lexican::demo::run_motor();
       for (CO_NODE* const node : {&drive_, &master_}) {
         CONodeProcess(node);
         COTmrProcess(&node->Tmr);

@@ -15,7 +15,7 @@
 #include "lexican/srdo.hpp"
 #include "trace/text.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 constexpr const char* description =
@@ -152,7 +152,7 @@ int run(Host& bus, bool serve) {
 }
 
 }  // namespace
-}  // namespace demo
+}  // namespace lexican::demo
 
 void COSrdoChange(CO_NODE* node, uint8_t, CO_SRDO_STATE state) {
   constexpr const char* states[] = {"deleted",
@@ -167,30 +167,31 @@ void COSrdoChange(CO_NODE* node, uint8_t, CO_SRDO_STATE state) {
                                     "error: short frame",
                                     "error: frame not sent",
                                     "error: internal"};
-  demo::print(std::string(CONmtGetNodeId(&node->Nmt) == demo::drive_id ? "drive:  " : "button: ") + states[state]);
+  lexican::demo::print(std::string(CONmtGetNodeId(&node->Nmt) == lexican::demo::drive_id ? "drive:  " : "button: ") +
+                       states[state]);
 }
 
 int main(int argc, char** argv) {
   std::string interface;
   bool serve = false;
-  CLI::App app(demo::description, "lexican-demo-srdo");
-  app.footer(demo::footer);
+  CLI::App app(lexican::demo::description, "lexican-demo-srdo");
+  app.footer(lexican::demo::footer);
   auto* const can = app.add_option("--can", interface, "SocketCAN interface to use, in real time")->type_name("IF");
   app.add_flag("--serve", serve, "Do not press the button; run until Ctrl-C")->needs(can);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? demo::exit_ok : demo::exit_usage;
+    return app.exit(error) == 0 ? lexican::exit_ok : lexican::exit_usage;
   }
-  const demo::Interruption interruption;
+  const lexican::demo::Interruption interruption;
   if (interface.empty()) {
-    demo::VirtualBusHost bus(interruption);
-    return demo::run(bus, serve);
+    lexican::demo::VirtualBusHost bus(interruption);
+    return lexican::demo::run(bus, serve);
   }
-  demo::SocketCanHost bus(interruption);
+  lexican::demo::SocketCanHost bus(interruption);
   if (const std::string fault = bus.open(interface, true, true); !fault.empty()) {
     std::fprintf(stderr, "%s\n", fault.c_str());
-    return demo::exit_usage;
+    return lexican::exit_usage;
   }
-  return demo::run(bus, serve);
+  return lexican::demo::run(bus, serve);
 }

@@ -32,14 +32,14 @@ constexpr const char* help =
     "    1  the node has reported an error\n"
     "    2  wrong arguments\n";
 
-const demo::trace::Names names = {
-    {0x2000, 0, "temperature in 0.1 degrees Celsius", demo::trace::Form::decimal},
-    {0x2001, 0, "limit of the temperature", demo::trace::Form::decimal},
+const lexican::trace::Names names = {
+    {0x2000, 0, "temperature in 0.1 degrees Celsius", lexican::trace::Form::decimal},
+    {0x2001, 0, "limit of the temperature", lexican::trace::Form::decimal},
 };
-const demo::trace::Mappings mappings = {{0x180, {{0x2000, 0, 2}}}};  // TPDO1
+const lexican::trace::Mappings mappings = {{0x180, {{0x2000, 0, 2}}}};  // TPDO1
 
-void show(co::VirtualClock& clock, const CO_IF_FRM& frame, demo::trace::Decoder& decoder) {
-  const std::string bytes = demo::hex_bytes(frame.Data, frame.DLC);
+void show(co::VirtualClock& clock, const CO_IF_FRM& frame, lexican::trace::Decoder& decoder) {
+  const std::string bytes = lexican::hex_bytes(frame.Data, frame.DLC);
   std::printf("%6lld ms  %03X  %-23s  %s\n", static_cast<long long>(clock.time() / 1ms),
               static_cast<unsigned>(frame.Identifier), bytes.c_str(), decoder.decode(frame).text.c_str());
 }
@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
   co::VirtualClock clock;
   co::VirtualTimer timer(clock, [&node] { COTmrService(&node.Tmr); });
   co::VirtualBus bus;
-  demo::trace::Decoder decoder(names, mappings);
+  lexican::trace::Decoder decoder(names, mappings);
   bus.set_trace([&](const co::VirtualBus::Traffic& traffic) { show(clock, traffic.frame, decoder); });
 
   CO_NODE_EXT drivers{};
@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   drivers.CanCtx = &bus.attach({"thermometer"});
   drivers.Timer = &co::VirtualTimerDriver;
   drivers.TimerCtx = &timer;
-  demo::make_thermometer(node, drivers, node_id);
+  lexican::demo::make_thermometer(node, drivers, node_id);
   CONodeStart(&node);
 
   bus.inject({0x000, {0x01, node_id}, 2});        // NMT: start
@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
     CONodeProcess(&node);
     COTmrProcess(&node.Tmr);
     if (tenths % 10 == 0) {
-      demo::set_temperature(node, tenths);
+      lexican::demo::set_temperature(node, tenths);
     }
     clock.advance(clock.ticks(100ms));
   }

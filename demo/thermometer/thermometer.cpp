@@ -4,7 +4,7 @@
 #include "lexican/dictionary.hpp"
 #include "lexican/object.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 std::uint8_t error_register = 0;
@@ -68,4 +68,4 @@ void set_temperature(CO_NODE& node, std::int16_t tenths) {
   }
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

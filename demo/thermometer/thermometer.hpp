@@ -9,7 +9,7 @@
 
 #include "co_core.h"
 
-namespace demo {
+namespace lexican::demo {
 
 /// Initialises the node. \a drivers: CAN and timer; Size is set here. The dictionary refers to variables by address, so
 /// a program has one thermometer.
@@ -18,4 +18,4 @@ void make_thermometer(CO_NODE& node, CO_NODE_EXT& drivers, std::uint8_t node_id)
 /// Sets the measured temperature, in tenths of a degree Celsius.
 void set_temperature(CO_NODE& node, std::int16_t tenths);
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -7,7 +7,7 @@
 
 #include "host/node.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 /// Differences between the clocks that the tour has to consider.
 struct DeviceTraits {
@@ -36,4 +36,4 @@ class Device {
   virtual Node* node_in_loop() = 0;
 };
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 SdoClient::Options sdo_options(const Device& device) {
@@ -89,4 +89,4 @@ bool Master::await_state(State state, Micros timeout) {
   return loop_.run_until([&] { return has_received_state(state); }, timeout);
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -14,7 +14,7 @@
 #include "host/node.hpp"
 #include "tour/device.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 /// NMT commands. [301:7.2.8.3.1.1]
 enum class Nmt : std::uint8_t { start = 1, stop = 2, enter_pre_operational = 128, reset_node = 129 };
@@ -65,4 +65,4 @@ class Master {
 #endif
 };
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -11,7 +11,7 @@
 #include "trace/decode.hpp"
 #include "trace/text.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 constexpr Micros heartbeat_timeout = 3 * second;
@@ -362,4 +362,4 @@ void print_counters(const CO_NODE_COUNTERS& counters, View& view, const char* la
                  counters.SdoAborts));
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -10,7 +10,7 @@
 #include "tour/master.hpp"
 #include "tour/view.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 struct TourResult {
   unsigned steps = 0;               // completed steps
@@ -28,4 +28,4 @@ TourResult run_tour(Device& device, Master& master, View& view);
 void print_summary(const TourResult& result, const CO_NODE_COUNTERS& counters, View& view, const char* label = "node");
 void print_counters(const CO_NODE_COUNTERS& counters, View& view, const char* label = "node");
 
-}  // namespace demo
+}  // namespace lexican::demo

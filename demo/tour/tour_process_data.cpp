@@ -5,7 +5,7 @@
 #include "tour/tour_steps.hpp"
 #include "trace/text.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 constexpr TimeOfDay noon = {12, 0, 0};
@@ -134,4 +134,4 @@ Finding produce_sync(Tour& tour) {
   return {right == messages, text("%u of %u SYNC messages, each followed by TPDO1", right, messages)};
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -5,7 +5,7 @@
 #include "tour/tour_steps.hpp"
 #include "trace/text.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 Bytes bytes_of(const char* text) { return Bytes(text, text + std::strlen(text)); }
 
@@ -91,4 +91,4 @@ Finding reset_settings(Tour& tour) {
   return {good, text(good ? "time zone %d min, as stored" : "not the time zone of %d min that was stored", time_zone)};
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

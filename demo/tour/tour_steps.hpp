@@ -10,7 +10,7 @@
 #include "tour/master.hpp"
 #include "tour/view.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 /// Result of a step.
 struct Finding {
@@ -75,4 +75,4 @@ Finding lose_power(Tour& tour);
 /// Sets another time zone without storing it, and checks that an NMT reset restores the stored one.
 Finding reset_settings(Tour& tour);
 
-}  // namespace demo
+}  // namespace lexican::demo

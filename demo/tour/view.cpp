@@ -5,7 +5,7 @@
 
 #include "trace/text.hpp"
 
-namespace demo {
+namespace lexican::demo {
 namespace {
 
 constexpr unsigned segments_shown = 4;
@@ -95,7 +95,7 @@ void View::progress(const std::string& text) {
   if (!is_folding()) {
     end_fold();
   }
-  const std::string line = demo::text("%9s  ", "") + text;
+  const std::string line = lexican::text("%9s  ", "") + text;
   if (!style_.terminal) {
     print_row({grey, line});
     return;
@@ -114,7 +114,7 @@ void View::finding(bool good, const std::string& text) { note(good ? "ok" : "FAI
 
 void View::note(const char* label, const std::string& text, const char* colour) {
   end_fold();
-  print_row({colour, demo::text("%9s  ", label) + text});
+  print_row({colour, lexican::text("%9s  ", label) + text});
 }
 
 void View::end_fold() {
@@ -129,4 +129,4 @@ void View::end_fold() {
   segments_ = 0;
 }
 
-}  // namespace demo
+}  // namespace lexican::demo

@@ -12,7 +12,7 @@
 #include "host/host.hpp"
 #include "trace/decode.hpp"
 
-namespace demo {
+namespace lexican::demo {
 
 class View {
  public:
@@ -61,4 +61,4 @@ class View {
   std::vector<Row> held_back_;  // rows that are printed only if the transfer is too short to be folded
 };
 
-}  // namespace demo
+}  // namespace lexican::demo

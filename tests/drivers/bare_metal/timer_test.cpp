@@ -8,7 +8,7 @@
 
 namespace {
 
-using demo::BoardTimer;
+using lexican::demo::BoardTimer;
 
 constexpr std::uint32_t ticks_per_second = 1000000;
 constexpr std::uint32_t latest = 50;  // ticks that interrupt and driver may take, with a margin
@@ -70,7 +70,7 @@ void on_uart() {}
 
 // Processes a timer interrupt like COTmrService(): one before the alarm is an intermediate step of the driver.
 void on_timer() {
-  demo::timer_interrupt();
+  lexican::demo::timer_interrupt();
   const std::uint32_t time = now();
   const std::uint32_t left = due - time;
   if (waiting && left != 0 && left <= UINT32_MAX / 2) {
@@ -86,7 +86,7 @@ void on_timer() {
 
 int main() {
   board::disable_interrupts();
-  timer = demo::board_timer();
+  timer = lexican::demo::board_timer();
   timer.driver->Init(timer.context, ticks_per_second);
   board::enable_interrupts();
   test::start_reference();

@@ -14,9 +14,9 @@
 
 namespace {
 
-using demo::Arguments;
-using demo::Bytes;
-using demo::Prepared;
+using lexican::Arguments;
+using lexican::Bytes;
+using lexican::Prepared;
 
 Arguments to_read() {
   Arguments arguments;
@@ -33,7 +33,7 @@ Arguments to_write(const char* type, const char* value) {
   return arguments;
 }
 
-std::string fault_of(const Arguments& arguments) { return demo::prepare(arguments).fault; }
+std::string fault_of(const Arguments& arguments) { return lexican::prepare(arguments).fault; }
 
 /// A file that is removed at the end of the test case.
 class File {
@@ -49,7 +49,7 @@ class File {
 }  // namespace
 
 TEST_CASE("demo arguments: node and index are enough to read") {
-  const Prepared prepared = demo::prepare(to_read());
+  const Prepared prepared = lexican::prepare(to_read());
   CHECK(prepared.fault == "");
   CHECK_FALSE(prepared.request.write);
   CHECK(prepared.request.node == 5);
@@ -66,7 +66,7 @@ TEST_CASE("demo arguments: index and sub-index are hexadecimal, with or without 
     Arguments arguments = to_read();
     arguments.index = index;
     arguments.sub = sub;
-    const Prepared prepared = demo::prepare(arguments);
+    const Prepared prepared = lexican::prepare(arguments);
     CHECK(prepared.fault == "");
     return CO_DEV(prepared.request.index, prepared.request.sub);
   };
@@ -85,7 +85,7 @@ TEST_CASE("demo arguments: other numbers are decimal or hexadecimal, and within 
   arguments.sub = "0d255";
   arguments.timeout = "0";
   arguments.max = "4294967295";
-  const Prepared prepared = demo::prepare(arguments);
+  const Prepared prepared = lexican::prepare(arguments);
   CHECK(prepared.fault == "");
   CHECK(prepared.request.node == 127);
   CHECK(prepared.request.own_id == 1);
@@ -121,14 +121,14 @@ TEST_CASE("demo arguments: numbers outside of their limits are refused") {
 TEST_CASE("demo arguments: the master uses a node-ID that differs from the node") {
   Arguments arguments = to_read();
   arguments.node = "127";
-  CHECK(demo::prepare(arguments).request.own_id == 126);
+  CHECK(lexican::prepare(arguments).request.own_id == 126);
   arguments.own_id = "127";
   CHECK(fault_of(arguments) == "--own-id: the remote node has this node-ID");
 }
 
 TEST_CASE("demo arguments: a value is converted according to its type") {
-  CHECK(demo::prepare(to_write("u16", "1000")).request.data == Bytes{0xE8, 0x03});
-  CHECK(demo::prepare(to_write("string", "abc")).request.data == Bytes{'a', 'b', 'c'});
+  CHECK(lexican::prepare(to_write("u16", "1000")).request.data == Bytes{0xE8, 0x03});
+  CHECK(lexican::prepare(to_write("string", "abc")).request.data == Bytes{'a', 'b', 'c'});
   CHECK(fault_of(to_write("u8", "300")) == "300 is out of range, 0...255");
   CHECK(fault_of(to_write("u12", "1")).find("--type: 'u12' is none of u8, ") == 0);
 }
@@ -150,7 +150,7 @@ TEST_CASE("demo arguments: a file is written unchanged") {
   Arguments arguments = to_read();
   arguments.write = true;
   arguments.file = file.name;
-  const Prepared prepared = demo::prepare(arguments);
+  const Prepared prepared = lexican::prepare(arguments);
   CHECK(prepared.fault == "");
   CHECK(prepared.request.data == Bytes(content.begin(), content.end()));
 }
@@ -170,18 +170,18 @@ TEST_CASE("demo arguments: a file that is unreadable, empty or has a numeric typ
 TEST_CASE("demo arguments: a number has a buffer too small for block transfer, other types one of the allowed size") {
   Arguments arguments = to_read();
   arguments.max = "1000";
-  CHECK(demo::prepare(arguments).request.capacity == 1000);
+  CHECK(lexican::prepare(arguments).request.capacity == 1000);
   arguments.type = "string";
-  CHECK(demo::prepare(arguments).request.capacity == 1000);
+  CHECK(lexican::prepare(arguments).request.capacity == 1000);
   arguments.type = "u64";
-  CHECK(demo::prepare(arguments).request.capacity == 28);  // no block transfer for a number
+  CHECK(lexican::prepare(arguments).request.capacity == 28);  // no block transfer for a number
 }
 
 // --- nmt
 
 TEST_CASE("demo arguments: nmt: the five commands of CiA 301 for one node or all [301:7.2.8.2.1]") {
   const auto specifier = [](const char* name) {
-    const demo::NmtPrepared prepared = demo::prepare(demo::NmtArguments{name, "5", ""});
+    const lexican::NmtPrepared prepared = lexican::prepare(lexican::NmtArguments{name, "5", ""});
     CHECK(prepared.fault == "");
     CHECK(prepared.request.node == 5);
     CHECK(prepared.request.own_id == 127);
@@ -192,14 +192,14 @@ TEST_CASE("demo arguments: nmt: the five commands of CiA 301 for one node or all
   CHECK(specifier("preop") == 128);
   CHECK(specifier("reset-node") == 129);
   CHECK(specifier("reset-comm") == 130);
-  CHECK(demo::prepare(demo::NmtArguments{"stop", "all", "3"}).request.node == 0);
-  CHECK(demo::prepare(demo::NmtArguments{"stop", "all", "3"}).request.own_id == 3);
-  CHECK(demo::prepare(demo::NmtArguments{"stop", "127", ""}).request.own_id == 126);
+  CHECK(lexican::prepare(lexican::NmtArguments{"stop", "all", "3"}).request.node == 0);
+  CHECK(lexican::prepare(lexican::NmtArguments{"stop", "all", "3"}).request.own_id == 3);
+  CHECK(lexican::prepare(lexican::NmtArguments{"stop", "127", ""}).request.own_id == 126);
 }
 
 TEST_CASE("demo arguments: nmt: an unknown command and a missing or wrong node are refused") {
   const auto fault = [](const char* command, const char* node, const char* own_id) {
-    return demo::prepare(demo::NmtArguments{command, node, own_id}).fault;
+    return lexican::prepare(lexican::NmtArguments{command, node, own_id}).fault;
   };
   CHECK(fault("begin", "5", "") == "nmt: 'begin' is none of start, stop, preop, reset-node, reset-comm");
   CHECK(fault("1", "5", "") == "nmt: '1' is none of start, stop, preop, reset-node, reset-comm");
@@ -213,10 +213,10 @@ TEST_CASE("demo arguments: nmt: an unknown command and a missing or wrong node a
 
 namespace {
 
-using demo::LssAction;
-using demo::LssAddress;
-using demo::LssArguments;
-using demo::LssPrepared;
+using lexican::LssAction;
+using lexican::LssAddress;
+using lexican::LssArguments;
+using lexican::LssPrepared;
 
 LssArguments lss(LssAction action, const char* value = "") {
   LssArguments arguments;
@@ -225,13 +225,13 @@ LssArguments lss(LssAction action, const char* value = "") {
   return arguments;
 }
 
-std::string fault_of(const LssArguments& arguments) { return demo::prepare(arguments).fault; }
+std::string fault_of(const LssArguments& arguments) { return lexican::prepare(arguments).fault; }
 
 }  // namespace
 
 TEST_CASE("demo arguments: lss: without an address nodes without node-ID are used") {
   for (const LssAction action : {LssAction::scan, LssAction::store, LssAction::inquire}) {
-    const LssPrepared prepared = demo::prepare(lss(action));
+    const LssPrepared prepared = lexican::prepare(lss(action));
     CHECK(prepared.fault == "");
     CHECK(prepared.request.action == action);
     CHECK_FALSE(prepared.request.address.has_value());
@@ -245,7 +245,7 @@ TEST_CASE("demo arguments: lss: without an address nodes without node-ID are use
 TEST_CASE("demo arguments: lss: an address has four numbers") {
   LssArguments arguments = lss(LssAction::inquire);
   arguments.address = {"0x319", "4294967295", "0", "0xFFFFFFFF"};
-  const LssPrepared prepared = demo::prepare(arguments);
+  const LssPrepared prepared = lexican::prepare(arguments);
   CHECK(prepared.fault == "");
   REQUIRE(prepared.request.address.has_value());
   CHECK((*prepared.request.address == LssAddress{0x319, 0xFFFFFFFF, 0, 0xFFFFFFFF}));
@@ -259,12 +259,12 @@ TEST_CASE("demo arguments: lss: an address has four numbers") {
 }
 
 TEST_CASE("demo arguments: lss: only node-IDs and bit rates of CiA 305 are accepted") {
-  CHECK(demo::prepare(lss(LssAction::set_id, "1")).request.value == 1);
-  CHECK(demo::prepare(lss(LssAction::set_id, "0x7F")).request.value == 127);
+  CHECK(lexican::prepare(lss(LssAction::set_id, "1")).request.value == 1);
+  CHECK(lexican::prepare(lss(LssAction::set_id, "0x7F")).request.value == 127);
   CHECK(fault_of(lss(LssAction::set_id, "0")) == "set-id: '0' is no number in 1...127");
   CHECK(fault_of(lss(LssAction::set_id, "128")) == "set-id: '128' is no number in 1...127");
   for (const char* rate : {"1000000", "800000", "500000", "250000", "125000", "50000", "20000", "10000"}) {
-    const LssPrepared prepared = demo::prepare(lss(LssAction::set_bit_rate, rate));
+    const LssPrepared prepared = lexican::prepare(lss(LssAction::set_bit_rate, rate));
     CHECK(prepared.fault == "");
     CHECK(std::to_string(prepared.request.value) == rate);
   }
@@ -290,7 +290,7 @@ TEST_CASE("demo arguments: lss: times, own node-ID and --store are parsed") {
   arguments.own_id = "3";
   arguments.timeout = "1";
   arguments.listen = "4294967295";
-  const LssPrepared prepared = demo::prepare(arguments);
+  const LssPrepared prepared = lexican::prepare(arguments);
   CHECK(prepared.fault == "");
   CHECK(prepared.request.store);
   CHECK(prepared.request.own_id == 3);

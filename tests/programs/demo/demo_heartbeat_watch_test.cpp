@@ -7,7 +7,7 @@
 #include "linux_node/heartbeat_watch.hpp"
 #include "support/notation.hpp"
 
-using demo::HeartbeatWatch;
+using lexican::demo::HeartbeatWatch;
 using test::frame;
 
 TEST_CASE("demo heartbeats: each is due a multiple of the heartbeat time after the boot-up [301:7.2.8.2.2.1]") {

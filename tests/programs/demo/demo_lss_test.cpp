@@ -18,8 +18,8 @@
 
 namespace {
 
-using demo::LssAction;
-using demo::LssArguments;
+using lexican::LssAction;
+using lexican::LssArguments;
 
 CO_OBJ slave_dictionary[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0},
@@ -52,9 +52,9 @@ struct Desk {
     out.str("");
     err.str("");
     frames.clear();
-    const demo::LssPrepared prepared = demo::prepare(arguments);
+    const lexican::LssPrepared prepared = lexican::prepare(arguments);
     REQUIRE(prepared.fault == "");
-    const int code = demo::carry_out(prepared.request, host, out, err);
+    const int code = lexican::carry_out(prepared.request, host, out, err);
     while (slave.process()) {
     }
     return code;
@@ -71,13 +71,13 @@ struct Desk {
   std::ostringstream out;
   std::ostringstream err;
   std::vector<std::string> frames;
-  demo::Node slave{{255, host.device_can(), host.device_timer(), {slave_dictionary, 7}}};
+  lexican::Node slave{{255, host.device_can(), host.device_timer(), {slave_dictionary, 7}}};
 };
 
 /// A slave at a separate port with planned behaviour; by default it conforms to CiA 305.
 class OddSlave {
  public:
-  explicit OddSlave(Desk& desk, demo::LssAddress own) : own_(own), port_(desk.host.bus.attach({"odd"})) {
+  explicit OddSlave(Desk& desk, lexican::LssAddress own) : own_(own), port_(desk.host.bus.attach({"odd"})) {
     port_.enable();
     auto others = desk.host.others;
     desk.host.others = [this, others] {
@@ -159,7 +159,7 @@ class OddSlave {
     return true;
   }
 
-  demo::LssAddress own_;
+  lexican::LssAddress own_;
   co::VirtualBus::Port& port_;
   bool configuration_ = false;
   bool selected_ = false;
@@ -233,7 +233,7 @@ TEST_CASE("demo lss: a failure is printed with status 1 after all nodes are swit
 
 TEST_CASE("demo lss: an interrupt ends it with status 130") {
   Desk desk;
-  desk.host.interrupted_at = desk.host.now() + 200 * demo::millisecond;
+  desk.host.interrupted_at = desk.host.now() + 200 * lexican::millisecond;
   CHECK(desk.run(LssAction::scan) == 130);
   CHECK(desk.err.str() == "LSS: cancelled\n");
   CHECK(desk.last_request() == "7E5#0400000000000000");

@@ -24,10 +24,10 @@
 namespace {
 
 using co::VirtualBus;
-using demo::Arguments;
-using demo::Bytes;
-using demo::Progress;
-using demo::second;
+using lexican::Arguments;
+using lexican::Bytes;
+using lexican::Progress;
+using lexican::second;
 
 struct Desk {
   Desk() {
@@ -41,10 +41,10 @@ struct Desk {
     out.str("");
     err.str("");
     frames.clear();
-    const demo::Prepared prepared = demo::prepare(arguments);
+    const lexican::Prepared prepared = lexican::prepare(arguments);
     REQUIRE(prepared.fault == "");
-    const demo::Outcome outcome = demo::carry_out(prepared.request, host, form, err);
-    return demo::report(prepared.request, outcome, out, err);
+    const lexican::Outcome outcome = lexican::carry_out(prepared.request, host, form, err);
+    return lexican::report(prepared.request, outcome, out, err);
   }
 
   bool was_sent(const char* frame) const { return std::find(frames.begin(), frames.end(), frame) != frames.end(); }
@@ -54,7 +54,7 @@ struct Desk {
   std::ostringstream out;
   std::ostringstream err;
   std::vector<std::string> frames;  // frames on the bus in the last run
-  demo::Clock clock{5, host.device_can(), host.device_timer(), {}};
+  lexican::demo::Clock clock{5, host.device_can(), host.device_timer(), {}};
 };
 
 Arguments to_read(const char* index, const char* sub, const char* type) {
@@ -135,7 +135,7 @@ TEST_CASE("demo master: a written value is read back") {
   CHECK(desk.run(to_write("0x2100", "1", "u8", "23")) == 0);
   CHECK(desk.out.str() == "");
   CHECK(desk.err.str() == "");
-  CHECK(demo::Clock::time().hour == 23);
+  CHECK(lexican::demo::Clock::time().hour == 23);
   CHECK(desk.run(to_write("0x2201", "0", "string", "Halt 7")) == 0);
   CHECK(desk.run(to_read("0x2201", "0", "bytes")) == 0);
   CHECK(desk.out.str() == "48 61 6C 74 20 37\n");
@@ -165,9 +165,9 @@ TEST_CASE("demo master: a missing node causes a time-out with status 1") {
   Arguments arguments = to_read("0x1000", "0", "");
   arguments.node = "6";
   arguments.timeout = "250";
-  const demo::Micros begin = desk.host.now();
+  const lexican::Micros begin = desk.host.now();
   CHECK(desk.run(arguments) == 1);
-  CHECK(desk.host.now() - begin >= 250 * demo::millisecond);
+  CHECK(desk.host.now() - begin >= 250 * lexican::millisecond);
   CHECK(desk.host.now() - begin < second);
   CHECK(desk.err.str() == "node 6, 1000h:00: no answer; is node 6 on this bus, with power, and at this bit rate?\n");
   CHECK(desk.was_sent("606#8000100000000405"));
@@ -184,7 +184,7 @@ TEST_CASE("demo master: a bus error is printed") {
 TEST_CASE("demo master: a file is written and read back unchanged, by block transfer if supported") {
   Desk desk;
   const File file;
-  const std::string content = picture(demo::picture_size);
+  const std::string content = picture(lexican::demo::picture_size);
   file.put(content);
   Arguments write = to_read("0x2200", "0", "domain");
   write.write = true;
@@ -231,11 +231,11 @@ TEST_CASE("demo master: a file that cannot be written is an error with status 2;
 TEST_CASE("demo master: an NMT command is one message after the boot-up message of the master [301:7.2.8.3.1]") {
   Desk desk;
   const auto run = [&desk](const char* command, const char* node) {
-    const demo::NmtPrepared prepared = demo::prepare(demo::NmtArguments{command, node, ""});
+    const lexican::NmtPrepared prepared = lexican::prepare(lexican::NmtArguments{command, node, ""});
     REQUIRE(prepared.fault == "");
     desk.err.str("");
     desk.frames.clear();
-    return demo::carry_out(prepared.request, desk.host, desk.err);
+    return lexican::carry_out(prepared.request, desk.host, desk.err);
   };
   CHECK(run("start", "5") == 0);
   CHECK(desk.frames == std::vector<std::string>{"77F#00", "000#0105"});
@@ -260,14 +260,14 @@ TEST_CASE("demo master: an NMT command that the bus refuses is a failure") {
   Desk desk;
   desk.host.fault = "CAN interface 'can0' is down";
   desk.host.bus.add_rule({VirtualBus::Fault::error, {}, 1, VirtualBus::always});
-  const demo::NmtPrepared prepared = demo::prepare(demo::NmtArguments{"start", "5", ""});
-  CHECK(demo::carry_out(prepared.request, desk.host, desk.err) == 1);
+  const lexican::NmtPrepared prepared = lexican::prepare(lexican::NmtArguments{"start", "5", ""});
+  CHECK(lexican::carry_out(prepared.request, desk.host, desk.err) == 1);
   CHECK(desk.err.str() == "NMT: CAN interface 'can0' is down\n");
 }
 
 TEST_CASE("demo master: an error of the stack is reported by its name and meaning") {
   Desk desk;
-  CHECK(demo::carry_out(demo::NmtRequest{demo::NmtCommand::start, 128, 127}, desk.host, desk.err) == 1);
+  CHECK(lexican::carry_out(lexican::NmtRequest{lexican::NmtCommand::start, 128, 127}, desk.host, desk.err) == 1);
   CHECK(desk.err.str() == std::string("NMT: CO_ERR_BAD_ARG: ") + COErrText(CO_ERR_BAD_ARG) + "\n");
 }
 #endif
@@ -276,9 +276,9 @@ TEST_CASE("demo master: an interrupt aborts the transfer with status 130 [301:7.
   Desk desk;
   Arguments arguments = to_read("0x1000", "0", "");
   arguments.node = "6";
-  desk.host.interrupted_at = desk.host.now() + 100 * demo::millisecond;
+  desk.host.interrupted_at = desk.host.now() + 100 * lexican::millisecond;
   desk.host.others = [&] {
-    desk.host.pass(demo::millisecond);
+    desk.host.pass(lexican::millisecond);
     return true;
   };
   CHECK(desk.run(arguments) == 130);
@@ -292,7 +292,7 @@ TEST_CASE("demo master: the abort of a cancelled transfer is sent on a busy bus"
   Arguments arguments = to_read("0x1000", "0", "u32");
   arguments.node = "6";
   desk.host.bus.add_rule({VirtualBus::Fault::refuse, {}, 1, 20});  // boot-up, request and abort are queued
-  desk.host.interrupted_at = desk.host.now() + 2 * demo::millisecond;
+  desk.host.interrupted_at = desk.host.now() + 2 * lexican::millisecond;
   CHECK(desk.run(arguments) == 130);
   CHECK(desk.frames == std::vector<std::string>{"77F#00", "606#4000100000000000", "606#8000100021000008"});
 }
@@ -311,7 +311,7 @@ TEST_CASE("demo master: progress is written to standard error, in lines or as a 
   desk.form = Progress::Form::bar;
   desk.host.others = [&] {  // each sub-block takes 10 ms
     desk.clock.node().process();
-    desk.host.pass(10 * demo::millisecond);
+    desk.host.pass(10 * lexican::millisecond);
     return true;
   };
   CHECK(desk.run(arguments) == 0);

@@ -11,10 +11,10 @@
 
 namespace {
 
-using demo::Amount;
-using demo::millisecond;
-using demo::Progress;
-using demo::second;
+using lexican::Amount;
+using lexican::millisecond;
+using lexican::Progress;
+using lexican::second;
 
 /// Records the progress texts of a transfer.
 struct Watcher {
@@ -28,18 +28,18 @@ struct Watcher {
 }  // namespace
 
 TEST_CASE("demo progress: bytes, percent and rate are in one line") {
-  CHECK(demo::progress_text({5000, 10000, 2 * second}) ==
+  CHECK(lexican::progress_text({5000, 10000, 2 * second}) ==
         "[###############...............]  50 %  5000 of 10000 bytes, 2.5 kB/s");
-  CHECK(demo::progress_text({10000, 10000, second}) ==
+  CHECK(lexican::progress_text({10000, 10000, second}) ==
         "[##############################] 100 %  10000 of 10000 bytes, 10.0 kB/s");
-  CHECK(demo::progress_text({0, 10000, 0}) == "[..............................]   0 %  0 of 10000 bytes");
-  CHECK(demo::progress_text({4294967295, 4294967295, second}) ==
+  CHECK(lexican::progress_text({0, 10000, 0}) == "[..............................]   0 %  0 of 10000 bytes");
+  CHECK(lexican::progress_text({4294967295, 4294967295, second}) ==
         "[##############################] 100 %  4294967295 of 4294967295 bytes, 4294967.3 kB/s");
 }
 
 TEST_CASE("demo progress: without a total no percent is shown") {
-  CHECK(demo::progress_text({5000, 0, 2 * second}) == "5000 bytes, 2.5 kB/s");
-  CHECK(demo::progress_text({0, 0, 0}) == "0 bytes");
+  CHECK(lexican::progress_text({5000, 0, 2 * second}) == "5000 bytes, 2.5 kB/s");
+  CHECK(lexican::progress_text({0, 0, 0}) == "0 bytes");
 }
 
 TEST_CASE("demo progress: a line is printed for each quarter") {

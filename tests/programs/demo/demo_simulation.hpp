@@ -12,25 +12,25 @@
 
 namespace test {
 
-class SimulatedHost : public demo::Host {
+class SimulatedHost : public lexican::Host {
  public:
-  demo::Can device_can() override { return {&co::VirtualBusDriver, &device_}; }
-  demo::Can master_can() override { return {&co::VirtualBusDriver, &master_}; }
-  demo::Timer device_timer() override { return {&co::VirtualTimerDriver, &device_timer_}; }
-  demo::Timer master_timer() override { return {&co::VirtualTimerDriver, &master_timer_}; }
+  lexican::Can device_can() override { return {&co::VirtualBusDriver, &device_}; }
+  lexican::Can master_can() override { return {&co::VirtualBusDriver, &master_}; }
+  lexican::Timer device_timer() override { return {&co::VirtualTimerDriver, &device_timer_}; }
+  lexican::Timer master_timer() override { return {&co::VirtualTimerDriver, &master_timer_}; }
   std::string bus_fault() override { return fault; }
   bool bus_lost() override { return lost; }
-  demo::Micros now() override { return clock_.elapsed(); }  // a tick of the nodes' clock is a microsecond
-  void wait(demo::Micros time) override {
+  lexican::Micros now() override { return clock_.elapsed(); }  // a tick of the nodes' clock is a microsecond
+  void wait(lexican::Micros time) override {
     if (!others || !others()) {
       pass(time);
     }
   }
-  void pass(demo::Micros time) { clock_.advance(time); }
+  void pass(lexican::Micros time) { clock_.advance(time); }
   bool interrupted() override { return now() >= interrupted_at; }
 
   co::VirtualBus bus;
-  demo::Micros interrupted_at = UINT64_MAX;
+  lexican::Micros interrupted_at = UINT64_MAX;
   std::string fault;
   bool lost = false;
   /// Function that is called while the program waits; returns false if it had nothing to do. May be empty.

@@ -20,8 +20,8 @@
 
 namespace {
 
-using demo::Interruption;
-using demo::SlcanHost;
+using lexican::demo::Interruption;
+using lexican::demo::SlcanHost;
 
 constexpr std::int16_t taken = sizeof(CO_IF_FRM);
 
@@ -67,13 +67,13 @@ class Adapter {
 
 /// Waits minutes for a frame, for a busy machine: a terminal transfers bytes some time after they are sent, and a frame
 /// in several parts. Returns its notation; empty: there was none.
-std::string next_frame(SlcanHost& host, const demo::Can& can) {
+std::string next_frame(SlcanHost& host, const lexican::Can& can) {
   CO_IF_FRM frame{};
   for (unsigned tries = 0; tries < 12000; ++tries) {
     if (can.driver->Read(can.context, &frame) > 0) {
       return test::notation(frame);
     }
-    host.wait(50 * demo::millisecond);
+    host.wait(50 * lexican::millisecond);
   }
   return {};
 }
@@ -110,7 +110,7 @@ struct Line {
       (std::filesystem::temp_directory_path() / ("lexican_slcan_" + std::to_string(::getpid()))).string();
   Interruption interruption;
   SlcanHost host{interruption};
-  demo::Can can = host.master_can();
+  lexican::Can can = host.master_can();
   std::unique_ptr<Adapter> adapter;
 };
 
@@ -137,7 +137,7 @@ TEST_CASE("slcan host: received bytes end a wait") {
   Line line;
   line.can.driver->Enable(line.can.context, 0);
   line.adapter->send("t0800\r");
-  line.host.wait(demo::for_ever / 1000000);
+  line.host.wait(lexican::for_ever / 1000000);
   CHECK(line.read() == "080#");
 }
 
@@ -212,7 +212,7 @@ TEST_CASE("slcan host: a terminal transfers bytes unchanged" * doctest::test_sui
   const Interruption interruption;
   SlcanHost host(interruption);
   REQUIRE(host.open(name, 0) == "");
-  const demo::Can can = host.master_can();
+  const lexican::Can can = host.master_can();
   can.driver->Enable(can.context, 0);
   CHECK(adapter.receive(4) == "C\rO\r");
   adapter.send("\rt70117F\r");
@@ -231,7 +231,7 @@ TEST_CASE("slcan host: a pseudo-terminal transfers frames while another program 
   const Interruption interruption;
   SlcanHost device(interruption);
   REQUIRE(device.open_pseudo_terminal() == "");
-  const demo::Can can = device.device_can();
+  const lexican::Can can = device.device_can();
   can.driver->Init(can.context);
   can.driver->Enable(can.context, 0);
   const CO_IF_FRM nobody = test::frame("705#00");
@@ -241,7 +241,7 @@ TEST_CASE("slcan host: a pseudo-terminal transfers frames while another program 
   for (const char* request : {"605#4000100000000000", "605#4008100000000000"}) {
     SlcanHost master(interruption);
     REQUIRE(master.open(device.path(), 0) == "");
-    const demo::Can other = master.master_can();
+    const lexican::Can other = master.master_can();
     other.driver->Init(other.context);
     other.driver->Enable(other.context, 0);
     const CO_IF_FRM frame = test::frame(request);
@@ -256,15 +256,15 @@ TEST_CASE("slcan host: a pseudo-terminal transfers frames while another program 
 
 TEST_CASE("linux host: the time of the built-in bus advances only while the program waits") {
   const Interruption interruption;
-  demo::VirtualBusHost host(interruption);
-  const demo::Timer timer = host.device_timer();
+  lexican::demo::VirtualBusHost host(interruption);
+  const lexican::Timer timer = host.device_timer();
   timer.driver->Init(timer.context, 1000000);
   CHECK(host.now() == 0);
   ::usleep(20000);
   CHECK(host.now() == 0);
-  host.wait(250 * demo::millisecond);
-  CHECK(host.now() == 250 * demo::millisecond);
-  host.wait(demo::for_ever);  // no event can end it earlier
-  CHECK(host.now() == 250 * demo::millisecond + demo::second);
+  host.wait(250 * lexican::millisecond);
+  CHECK(host.now() == 250 * lexican::millisecond);
+  host.wait(lexican::for_ever);  // no event can end it earlier
+  CHECK(host.now() == 250 * lexican::millisecond + lexican::second);
 }
 #endif

@@ -28,12 +28,12 @@
 namespace {
 
 using co::VirtualBus;
-using demo::Bytes;
-using demo::Micros;
-using demo::SdoClient;
-using demo::second;
-using demo::State;
-using demo::TimeOfDay;
+using lexican::Bytes;
+using lexican::Micros;
+using lexican::SdoClient;
+using lexican::second;
+using lexican::demo::State;
+using lexican::demo::TimeOfDay;
 using test::SimulatedHost;
 
 constexpr std::uint8_t node_id = 5;
@@ -49,8 +49,8 @@ std::string number_of_steps() { return std::to_string(tour_steps); }
 struct Remembered {
   Remembered() {
     CONvmRamClear(&ram);
-    test::callbacks().lss_load = demo::Node::load_lss;
-    test::callbacks().lss_store = demo::Node::store_lss;
+    test::callbacks().lss_load = lexican::Node::load_lss;
+    test::callbacks().lss_store = lexican::Node::store_lss;
   }
   ~Remembered() {
     test::callbacks().lss_load = nullptr;
@@ -58,10 +58,10 @@ struct Remembered {
   }
   Remembered(const Remembered&) = delete;
   Remembered& operator=(const Remembered&) = delete;
-  demo::Memory memory() { return {&RamNvmDriver, &ram}; }
+  lexican::Memory memory() { return {&RamNvmDriver, &ram}; }
 
-  std::array<std::uint8_t, demo::clock_memory_size> bytes{};
-  CO_NVM_RAM ram{bytes.data(), demo::clock_memory_size};
+  std::array<std::uint8_t, lexican::demo::clock_memory_size> bytes{};
+  CO_NVM_RAM ram{bytes.data(), lexican::demo::clock_memory_size};
 };
 
 struct Bench {
@@ -83,9 +83,9 @@ struct Bench {
   std::ostringstream out;
   SimulatedHost host;
   Remembered remembered;
-  demo::View view{out, demo::clock_object_names(), {}, demo::clock_mappings()};
-  demo::Clock clock;
-  demo::Master master{host, clock, node_id};
+  lexican::demo::View view{out, lexican::demo::clock_object_names(), {}, lexican::demo::clock_mappings()};
+  lexican::demo::Clock clock;
+  lexican::demo::Master master{host, clock, node_id};
   SdoClient& sdo = master.sdo();
 };
 
@@ -97,8 +97,8 @@ bool same(const TimeOfDay& time, unsigned hour, unsigned minute, unsigned second
 
 TEST_CASE("demo: all steps of the tour succeed, and its trace is readable") {
   Bench bench;
-  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
-  demo::print_summary(result, bench.clock.node().counters(), bench.view);
+  const lexican::demo::TourResult result = lexican::demo::run_tour(bench.clock, bench.master, bench.view);
+  lexican::demo::print_summary(result, bench.clock.node().counters(), bench.view);
   INFO(bench.trace());
   CHECK(result.steps == tour_steps);
   CHECK(result.failed.empty());
@@ -131,8 +131,8 @@ TEST_CASE("demo: all steps of the tour succeed, and its trace is readable") {
 
 #if USE_LSS && USE_LSS_MASTER && USE_PARA
 TEST_CASE("demo: in the tour a clock without node-ID is found, configured, and keeps its node-ID over power loss") {
-  Bench bench(demo::no_node_id);
-  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
+  Bench bench(lexican::no_node_id);
+  const lexican::demo::TourResult result = lexican::demo::run_tour(bench.clock, bench.master, bench.view);
   INFO(bench.trace());
   CHECK(result.steps == tour_steps + 1);
   CHECK(result.failed.empty());
@@ -146,12 +146,12 @@ TEST_CASE("demo: in the tour a clock without node-ID is found, configured, and k
 }
 
 TEST_CASE("demo: a clock without node-ID that is not configured sends nothing") {
-  Bench bench(demo::no_node_id);
+  Bench bench(lexican::no_node_id);
   REQUIRE(bench.clock.start());
   unsigned frames = 0;
   bench.host.bus.set_trace([&](const VirtualBus::Traffic&) { ++frames; });
   bench.clock.node().process();
-  CHECK(bench.clock.node_id() == demo::no_node_id);
+  CHECK(bench.clock.node_id() == lexican::no_node_id);
   CHECK_FALSE(bench.master.await_state(State::boot_up, 3 * second));
   CHECK(frames == 0);
 }
@@ -160,17 +160,17 @@ TEST_CASE("demo: the node-ID stored by LSS overrides that of the command line, a
   Remembered remembered;
   SimulatedHost host;
   {
-    demo::Clock clock(demo::no_node_id, host.device_can(), host.device_timer(), {}, remembered.memory());
-    demo::Master master(host, clock, 9);
+    lexican::demo::Clock clock(lexican::no_node_id, host.device_can(), host.device_timer(), {}, remembered.memory());
+    lexican::demo::Master master(host, clock, 9);
     REQUIRE(clock.start());
-    demo::LssMaster& lss = master.lss();
+    lexican::LssMaster& lss = master.lss();
     REQUIRE(lss.run(COLssmFastscan, nullptr, std::uint8_t{0}));
     REQUIRE(lss.run(COLssmConfigureNodeId, std::uint8_t{9}));
     REQUIRE(lss.run(COLssmStore));
   }
-  demo::Clock clock(node_id, host.device_can(), host.device_timer(), {}, remembered.memory());
+  lexican::demo::Clock clock(node_id, host.device_can(), host.device_timer(), {}, remembered.memory());
   CHECK(clock.node_id() == 9);
-  demo::Master master(host, clock, 9);
+  lexican::demo::Master master(host, clock, 9);
   REQUIRE(clock.start());
   CHECK(master.await_state(State::boot_up, 0));
   CHECK(master.sdo().upload(0x1018, 2).data == Bytes{0x0C, 0xC1, 0, 0});
@@ -201,9 +201,9 @@ TEST_CASE("demo: another program with the same file has the saved name and time 
   SimulatedHost host;
   for (const bool first : {true, false}) {
     co::FileNvm file;
-    REQUIRE(file.open(path, demo::clock_memory_size));
-    demo::Clock clock(node_id, host.device_can(), host.device_timer(), {}, {&co::FileNvmDriver, &file});
-    demo::Master master(host, clock, node_id);
+    REQUIRE(file.open(path, lexican::demo::clock_memory_size));
+    lexican::demo::Clock clock(node_id, host.device_can(), host.device_timer(), {}, {&co::FileNvmDriver, &file});
+    lexican::demo::Master master(host, clock, node_id);
     REQUIRE(clock.start());
     SdoClient& sdo = master.sdo();
     CHECK(sdo.upload(0x2201, 0).data == (first ? Bytes{} : name));
@@ -224,7 +224,7 @@ TEST_CASE("demo: NMT reset node restores a name that is longer than the present 
   REQUIRE(bench.sdo.download(0x1010, 1, {'s', 'a', 'v', 'e'}).done());
   REQUIRE(bench.sdo.download(0x2201, 0, {'X'}).done());
   CHECK(bench.sdo.upload(0x2201, 0).data == Bytes{'X'});
-  REQUIRE(bench.master.command(demo::Nmt::reset_node));
+  REQUIRE(bench.master.command(lexican::demo::Nmt::reset_node));
   REQUIRE(bench.master.await_state(State::boot_up, second));
   CHECK(bench.sdo.upload(0x2201, 0).data == name);
 }
@@ -248,8 +248,8 @@ TEST_CASE("demo: \"load\" restores an empty name at the next start; a new name s
 
 TEST_CASE("demo: a clock without memory refuses \"save\" with 0606 0000h") {
   SimulatedHost host;
-  demo::Clock clock(node_id, host.device_can(), host.device_timer(), {});
-  demo::Master master(host, clock, node_id);
+  lexican::demo::Clock clock(node_id, host.device_can(), host.device_timer(), {});
+  lexican::demo::Master master(host, clock, node_id);
   REQUIRE(clock.start());
   CHECK(master.sdo().download(0x1010, 1, {'s', 'a', 'v', 'e'}).code == 0x06060000);
 }
@@ -257,8 +257,8 @@ TEST_CASE("demo: a clock without memory refuses \"save\" with 0606 0000h") {
 
 TEST_CASE("demo: a clock keeps its configured serial number over NMT resets and power loss") {
   SimulatedHost host;
-  demo::Clock clock(node_id, host.device_can(), host.device_timer(), {}, {}, 0x12345678);
-  demo::Master master(host, clock, node_id);
+  lexican::demo::Clock clock(node_id, host.device_can(), host.device_timer(), {}, {}, 0x12345678);
+  lexican::demo::Master master(host, clock, node_id);
   const Bytes serial = {0x78, 0x56, 0x34, 0x12};
   REQUIRE(clock.start());
   CHECK(master.sdo().upload(0x1018, 4).data == serial);
@@ -272,16 +272,16 @@ TEST_CASE("demo: a clock keeps its configured serial number over NMT resets and 
 }
 
 TEST_CASE("demo: serial numbers of different storage files differ and are kept") {
-  const std::uint32_t one = demo::serial_number_from("host:/tmp/one");
-  CHECK(one == demo::serial_number_from("host:/tmp/one"));
-  CHECK(one != demo::serial_number_from("host:/tmp/two"));
-  CHECK(one != demo::serial_number_from("other:/tmp/one"));
-  CHECK(demo::serial_number_from("") != 0);
+  const std::uint32_t one = lexican::demo::serial_number_from("host:/tmp/one");
+  CHECK(one == lexican::demo::serial_number_from("host:/tmp/one"));
+  CHECK(one != lexican::demo::serial_number_from("host:/tmp/two"));
+  CHECK(one != lexican::demo::serial_number_from("other:/tmp/one"));
+  CHECK(lexican::demo::serial_number_from("") != 0);
 }
 
 TEST_CASE("demo: no line of the trace is longer than 120 characters, and long transfers are folded") {
   Bench bench;
-  demo::run_tour(bench.clock, bench.master, bench.view);
+  lexican::demo::run_tour(bench.clock, bench.master, bench.view);
   std::istringstream lines(bench.trace());
   std::size_t longest = 0;
   std::size_t count = 0;
@@ -299,13 +299,13 @@ TEST_CASE("demo: a step that fails is reported, and the tour continues") {
     return traffic.frame.Identifier == 0x585 && traffic.frame.Data[0] == 0x07;
   };
   bench.host.bus.add_rule({VirtualBus::Fault::drop, is_last_name_segment});
-  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
+  const lexican::demo::TourResult result = lexican::demo::run_tour(bench.clock, bench.master, bench.view);
   INFO(bench.trace());
   CHECK(result.steps == tour_steps);
   REQUIRE(result.failed.size() == 1);
   CHECK(result.failed[0] == "Read the device name, more than 4 bytes: segmented upload");
   CHECK(bench.shows("FAILED  the device name: no answer"));
-  demo::print_summary(result, bench.clock.node().counters(), bench.view);
+  lexican::demo::print_summary(result, bench.clock.node().counters(), bench.view);
   CHECK(bench.shows(", 1 not as expected"));
 }
 
@@ -316,12 +316,12 @@ TEST_CASE("demo: any lost frame fails one step and those that depend on it") {
   for (std::uint32_t number = 1;; number += every_frame) {
     CAPTURE(number);
     Bench bench;
-    demo::trace::Decoder decoder(demo::clock_object_names(), demo::clock_mappings());
+    lexican::trace::Decoder decoder(lexican::demo::clock_object_names(), lexican::demo::clock_mappings());
     const auto is_no_segment = [&](const VirtualBus::Traffic& traffic) {
-      return decoder.decode(traffic.frame).place != demo::trace::Place::middle;
+      return decoder.decode(traffic.frame).place != lexican::trace::Place::middle;
     };
     const std::size_t rule = bench.host.bus.add_rule({VirtualBus::Fault::drop, is_no_segment, number});
-    const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
+    const lexican::demo::TourResult result = lexican::demo::run_tour(bench.clock, bench.master, bench.view);
     if (bench.host.bus.struck(rule) == 0) {
       CHECK(number > 100);
       break;
@@ -343,7 +343,7 @@ TEST_CASE("demo: the picture is transferred in both directions although segments
   };
   const std::size_t down = bench.host.bus.add_rule({VirtualBus::Fault::drop, segment_85_of(0x605), 1, 5});
   const std::size_t up = bench.host.bus.add_rule({VirtualBus::Fault::drop, segment_85_of(0x585), 1, 5});
-  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
+  const lexican::demo::TourResult result = lexican::demo::run_tour(bench.clock, bench.master, bench.view);
   INFO(bench.trace());
   CHECK(bench.host.bus.struck(down) == 5);
   CHECK(bench.host.bus.struck(up) == 5);
@@ -366,7 +366,7 @@ TEST_CASE("demo: a picture that is read back with other bytes is detected") {
       spoilt = true;
     }
   });
-  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
+  const lexican::demo::TourResult result = lexican::demo::run_tour(bench.clock, bench.master, bench.view);
   REQUIRE(result.failed.size() == 1);
   CHECK(result.failed[0] == "Read the picture and compare every byte: block upload");
   CHECK(bench.shows("FAILED  73728 bytes read, NOT as written"));
@@ -374,7 +374,7 @@ TEST_CASE("demo: a picture that is read back with other bytes is detected") {
 
 TEST_CASE("demo: the progress of a long transfer is shown in a few lines") {
   Bench bench;
-  demo::run_tour(bench.clock, bench.master, bench.view);
+  lexican::demo::run_tour(bench.clock, bench.master, bench.view);
 #if CO_CSDO_BLOCK > 0  // progress counts whole sub-blocks
   CHECK(bench.shows("]  25 %  18669 of 73728 bytes"));
 #endif
@@ -383,9 +383,9 @@ TEST_CASE("demo: the progress of a long transfer is shown in a few lines") {
 
 TEST_CASE("demo: an interrupt ends the tour") {
   Bench bench;
-  bench.host.interrupted_at = 100 * demo::millisecond;  // before the first heartbeat
-  const demo::TourResult result = demo::run_tour(bench.clock, bench.master, bench.view);
-  demo::print_summary(result, bench.clock.node().counters(), bench.view);
+  bench.host.interrupted_at = 100 * lexican::millisecond;  // before the first heartbeat
+  const lexican::demo::TourResult result = lexican::demo::run_tour(bench.clock, bench.master, bench.view);
+  lexican::demo::print_summary(result, bench.clock.node().counters(), bench.view);
   CHECK(result.interrupted);
   CHECK(result.steps == 10 + storage_steps);
   CHECK(result.failed.empty());
@@ -396,7 +396,7 @@ TEST_CASE("demo: the master waits for a state that is reported after its command
   Bench bench;
   bench.start();
   bench.after(2 * second);
-  REQUIRE(bench.master.command(demo::Nmt::start));
+  REQUIRE(bench.master.command(lexican::demo::Nmt::start));
   CHECK_FALSE(bench.master.await_state(State::pre_operational, 2 * second));
   bench.after(2 * second);
   CHECK(bench.master.await_state(State::operational, 0));
@@ -411,8 +411,8 @@ TEST_CASE("demo: the master is a separate node, with another node-ID than the cl
     }
   });
   for (const std::uint8_t device : {std::uint8_t{5}, std::uint8_t{127}}) {
-    demo::Clock clock(device, host.device_can(), host.device_timer(), {});
-    demo::Master master(host, clock, device);
+    lexican::demo::Clock clock(device, host.device_can(), host.device_timer(), {});
+    lexican::demo::Master master(host, clock, device);
     REQUIRE(clock.start());
     CHECK(master.sdo().upload(0x1001, 0).data == Bytes{0});
   }
@@ -422,17 +422,17 @@ TEST_CASE("demo: the master is a separate node, with another node-ID than the cl
 TEST_CASE("demo: the clock runs, and changes minute, hour and day") {
   Bench bench;
   bench.start();
-  CHECK(same(demo::Clock::time(), 0, 0, 0));
+  CHECK(same(lexican::demo::Clock::time(), 0, 0, 0));
   bench.after(59 * second);
-  CHECK(same(demo::Clock::time(), 0, 0, 59));
+  CHECK(same(lexican::demo::Clock::time(), 0, 0, 59));
   bench.after(second);
-  CHECK(same(demo::Clock::time(), 0, 1, 0));
+  CHECK(same(lexican::demo::Clock::time(), 0, 1, 0));
   REQUIRE(bench.sdo.download(0x2100, 1, {23}).done());
   REQUIRE(bench.sdo.download(0x2100, 2, {59}).done());
   REQUIRE(bench.sdo.download(0x2100, 3, {59}).done());
-  CHECK(same(demo::Clock::time(), 23, 59, 59));
+  CHECK(same(lexican::demo::Clock::time(), 23, 59, 59));
   bench.after(second);
-  CHECK(same(demo::Clock::time(), 0, 0, 0));
+  CHECK(same(lexican::demo::Clock::time(), 0, 0, 0));
 }
 
 TEST_CASE("demo: the clock refuses invalid times with 0609 0031h") {
@@ -441,7 +441,7 @@ TEST_CASE("demo: the clock refuses invalid times with 0609 0031h") {
   CHECK(bench.sdo.download(0x2100, 1, {24}).code == 0x06090031);
   CHECK(bench.sdo.download(0x2100, 2, {60}).code == 0x06090031);
   CHECK(bench.sdo.download(0x2100, 3, {60}).code == 0x06090031);
-  CHECK(same(demo::Clock::time(), 0, 0, 0));
+  CHECK(same(lexican::demo::Clock::time(), 0, 0, 0));
   CHECK(bench.sdo.upload(0x2100, 1).data == Bytes{0});
 }
 
@@ -450,7 +450,7 @@ TEST_CASE("demo: TPDO1 sends the changed time in Operational, at most every 100 
   bench.start();
   bench.after(second);
   CHECK_FALSE(bench.shows("TPDO1"));
-  REQUIRE(bench.master.command(demo::Nmt::start));
+  REQUIRE(bench.master.command(lexican::demo::Nmt::start));
   std::vector<Micros> sent;
   bench.host.bus.set_trace([&](const VirtualBus::Traffic& traffic) {
     if (traffic.frame.Identifier == 0x185) {
@@ -464,13 +464,13 @@ TEST_CASE("demo: TPDO1 sends the changed time in Operational, at most every 100 
   bench.after(second / 2);
   REQUIRE(sent.size() == 4);
   CHECK(sent[3] - sent[2] >= second / 10);
-  CHECK(same(demo::Clock::time(), 7, 8, 9));
+  CHECK(same(lexican::demo::Clock::time(), 7, 8, 9));
 }
 
 TEST_CASE("demo: each invalid part of the time is a separate emergency until it is valid") {
   Bench bench;
   bench.start();
-  REQUIRE(bench.master.command(demo::Nmt::start));
+  REQUIRE(bench.master.command(lexican::demo::Nmt::start));
   bench.after(second / 2);
   std::vector<std::string> emergencies;
   bench.host.bus.set_trace([&](const VirtualBus::Traffic& traffic) {
@@ -479,9 +479,9 @@ TEST_CASE("demo: each invalid part of the time is a separate emergency until it 
     }
   });
   REQUIRE(bench.master.send({0x205, {24, 60, 12}, 3}));
-  bench.after(demo::millisecond);
+  bench.after(lexican::millisecond);
   CHECK(emergencies == std::vector<std::string>{"085#0063810118000000", "085#006381023C000000"});
-  CHECK(same(demo::Clock::time(), 0, 0, 12));
+  CHECK(same(lexican::demo::Clock::time(), 0, 0, 12));
   CHECK(bench.sdo.upload(0x1001, 0).data == Bytes{0x81});
   CHECK(bench.sdo.upload(0x1003, 0).data == Bytes{2});
   CHECK(bench.sdo.upload(0x1003, 1).data == Bytes{0x00, 0x63, 0x02, 0x3C});
@@ -539,9 +539,9 @@ std::vector<std::string> lines_of(const std::ostringstream& out) {
 }
 
 /// Returns the lines of a trace of an upload with \a segments frames in its middle.
-std::vector<std::string> shown_of(unsigned segments, demo::View::Style style = {}) {
+std::vector<std::string> shown_of(unsigned segments, lexican::demo::View::Style style = {}) {
   std::ostringstream out;
-  demo::View view(out, demo::clock_object_names(), style);
+  lexican::demo::View view(out, lexican::demo::clock_object_names(), style);
   for (unsigned i = 0; i < segments; ++i) {
     view.frame(0, true, test::frame("601#6000000000000000"));
   }
@@ -578,14 +578,14 @@ TEST_CASE("demo: the view folds the middle of a long transfer and prints the num
 TEST_CASE("demo: the view shows short transfers and, on request, every frame") {
   CHECK(shown_of(4).size() == 5);
   CHECK(shown_of(8).size() == 9);
-  demo::View::Style style;
+  lexican::demo::View::Style style;
   style.every_frame = true;
   CHECK(shown_of(10, style).size() == 11);
 }
 
 TEST_CASE("demo: a heartbeat in the middle of a long transfer is shown, and the transfer stays folded") {
   std::ostringstream out;
-  demo::View view(out, demo::clock_object_names(), {});
+  lexican::demo::View view(out, lexican::demo::clock_object_names(), {});
   for (unsigned i = 0; i < 20; ++i) {
     view.frame(0, true, test::frame("601#6000000000000000"));
     if (i == 10) {
@@ -601,7 +601,7 @@ TEST_CASE("demo: a heartbeat in the middle of a long transfer is shown, and the 
 
 TEST_CASE("demo: a heartbeat in a short transfer is shown at its position") {
   std::ostringstream out;
-  demo::View view(out, demo::clock_object_names(), {});
+  lexican::demo::View view(out, lexican::demo::clock_object_names(), {});
   for (unsigned i = 0; i < 6; ++i) {
     view.frame(0, true, test::frame("601#6000000000000000"));
   }
@@ -613,15 +613,15 @@ TEST_CASE("demo: a heartbeat in a short transfer is shown at its position") {
 
 TEST_CASE("demo: on a terminal the next line replaces the progress; otherwise the progress is kept") {
   std::ostringstream out;
-  demo::View::Style style;
+  lexican::demo::View::Style style;
   style.terminal = true;
-  demo::View terminal(out, demo::clock_object_names(), style);
+  lexican::demo::View terminal(out, lexican::demo::clock_object_names(), style);
   terminal.progress("1 %");
   terminal.progress("2 %");
   terminal.line("end");
   CHECK(out.str() == "\r\033[K           1 %\r\033[K           2 %\r\033[Kend\n");
   out.str("");
-  demo::View file(out, demo::clock_object_names(), {});
+  lexican::demo::View file(out, lexican::demo::clock_object_names(), {});
   file.progress("1 %");
   file.line("end");
   CHECK(out.str() == "           1 %\nend\n");

@@ -17,19 +17,19 @@
 
 namespace {
 
-using demo::second;
+using lexican::second;
 
 struct Elsewhere {
   Elsewhere() {
     CONvmRamClear(&ram);
     host.others = [this] { return is_there && live(); };
   }
-  int run_tour() { return demo::run_clock_tour(5, host, {}, out); }
+  int run_tour() { return lexican::demo::run_clock_tour(5, host, {}, out); }
   /// Runs the clock for one step: it is called whenever the master waits, and advances the time when it has nothing to
   /// do.
   bool live() {
     if (!clock.node().process()) {
-      host.pass(demo::millisecond);
+      host.pass(lexican::millisecond);
     }
     return true;
   }
@@ -38,9 +38,9 @@ struct Elsewhere {
   test::SimulatedHost host;
   std::ostringstream out;
   bool is_there = true;
-  std::array<std::uint8_t, demo::clock_memory_size> bytes{};
-  CO_NVM_RAM ram{bytes.data(), demo::clock_memory_size};
-  demo::Clock clock{5, host.device_can(), host.device_timer(), {}, {&RamNvmDriver, &ram}};
+  std::array<std::uint8_t, lexican::demo::clock_memory_size> bytes{};
+  CO_NVM_RAM ram{bytes.data(), lexican::demo::clock_memory_size};
+  lexican::demo::Clock clock{5, host.device_can(), host.device_timer(), {}, {&RamNvmDriver, &ram}};
 };
 
 }  // namespace
@@ -48,7 +48,7 @@ struct Elsewhere {
 TEST_CASE("demo: the master runs the tour with a clock elsewhere on the bus") {
   Elsewhere elsewhere;
   REQUIRE(elsewhere.clock.start());
-  CHECK(elsewhere.run_tour() == demo::exit_ok);
+  CHECK(elsewhere.run_tour() == lexican::exit_ok);
   INFO(elsewhere.out.str());
   CHECK(elsewhere.shows("node    705  00                       boot-up"));
   CHECK(elsewhere.shows("master  605  40 08 10 00 00 00 00 00  SDO upload 1008h:00 device name"));
@@ -65,14 +65,14 @@ TEST_CASE("demo: the master resets a clock that booted before the master") {
   REQUIRE(elsewhere.clock.start());
   elsewhere.clock.node().process();
   elsewhere.host.pass(second / 2);
-  CHECK(elsewhere.run_tour() == demo::exit_ok);
+  CHECK(elsewhere.run_tour() == lexican::exit_ok);
   CHECK(elsewhere.shows("master  000  81 05                    NMT reset node, node 5"));
 }
 
 TEST_CASE("demo: a tour without a clock fails and ends") {
   Elsewhere elsewhere;
   elsewhere.is_there = false;
-  CHECK(elsewhere.run_tour() == demo::exit_failed);
+  CHECK(elsewhere.run_tour() == lexican::exit_failed);
   CHECK(elsewhere.shows("FAILED  no boot-up message of node 5"));
   CHECK(elsewhere.shows("not as expected"));
 }
@@ -83,12 +83,12 @@ TEST_CASE("demo: a tour reports a lost bus and an interrupt") {
   lost.host.fault = "the adapter is gone";
   lost.host.lost = true;
   lost.host.interrupted_at = second / 2;
-  CHECK(lost.run_tour() == demo::exit_failed);
+  CHECK(lost.run_tour() == lexican::exit_failed);
   CHECK(lost.shows("FAILED  the adapter is gone"));
 
   Elsewhere interrupted;
   REQUIRE(interrupted.clock.start());
   interrupted.host.interrupted_at = second / 2;
-  CHECK(interrupted.run_tour() == demo::exit_interrupted);
+  CHECK(interrupted.run_tour() == lexican::exit_interrupted);
 }
 #endif

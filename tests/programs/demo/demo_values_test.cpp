@@ -10,31 +10,31 @@
 
 namespace {
 
-using demo::Bytes;
+using lexican::Bytes;
 
-demo::ValueType type(const char* name) {
-  const auto found = demo::value_type(name);
+lexican::ValueType type(const char* name) {
+  const auto found = lexican::value_type(name);
   REQUIRE(found.has_value());
   return *found;
 }
 
 /// Returns the bytes of a value. The text must be valid.
 Bytes bytes(const char* type_name, const std::string& text) {
-  const demo::Encoded encoded = demo::encode(type(type_name), text);
+  const lexican::Encoded encoded = lexican::encode(type(type_name), text);
   CAPTURE(text);
   CHECK(encoded.fault == "");
   return encoded.bytes;
 }
 
 std::string fault(const char* type_name, const std::string& text) {
-  const demo::Encoded encoded = demo::encode(type(type_name), text);
+  const lexican::Encoded encoded = lexican::encode(type(type_name), text);
   CHECK(encoded.bytes.empty());
   return encoded.fault;
 }
 
 /// Returns the text of a value. The bytes must be valid.
 std::string shown(const char* type_name, const Bytes& value) {
-  const demo::Shown result = demo::show(type(type_name), value);
+  const lexican::Shown result = lexican::show(type(type_name), value);
   CHECK(result.fault == "");
   return result.text;
 }
@@ -129,43 +129,43 @@ TEST_CASE("demo values: integers are shown in decimal, with their sign") {
 }
 
 TEST_CASE("demo values: a value with another number of bytes than its type is not shown") {
-  CHECK(demo::show(type("u16"), {1, 2, 3, 4}).fault == "the object has 4 bytes, a value of this type has 2");
-  CHECK(demo::show(type("u16"), {1}).fault == "the object has 1 byte, a value of this type has 2");
-  CHECK(demo::show(type("r64"), {}).fault == "the object has 0 bytes, a value of this type has 8");
+  CHECK(lexican::show(type("u16"), {1, 2, 3, 4}).fault == "the object has 4 bytes, a value of this type has 2");
+  CHECK(lexican::show(type("u16"), {1}).fault == "the object has 1 byte, a value of this type has 2");
+  CHECK(lexican::show(type("r64"), {}).fault == "the object has 0 bytes, a value of this type has 8");
 }
 
 TEST_CASE("demo values: untyped 1, 2, 4 and 8 bytes are a number, others a hex dump") {
-  CHECK(demo::guess({0x0C}) == "0x0C");
-  CHECK(demo::guess({0xE8, 0x03}) == "0x03E8");
-  CHECK(demo::guess({0x0C, 0xC1, 0x00, 0x00}) == "0x0000C10C");
-  CHECK(demo::guess({1, 2, 3, 4, 5, 6, 7, 0x80}) == "0x8007060504030201");
-  CHECK(demo::guess({}) == "");
-  CHECK(demo::guess({'a', 0x00, 0xFF}) == "00000000  61 00 FF                                         |a..|");
+  CHECK(lexican::guess({0x0C}) == "0x0C");
+  CHECK(lexican::guess({0xE8, 0x03}) == "0x03E8");
+  CHECK(lexican::guess({0x0C, 0xC1, 0x00, 0x00}) == "0x0000C10C");
+  CHECK(lexican::guess({1, 2, 3, 4, 5, 6, 7, 0x80}) == "0x8007060504030201");
+  CHECK(lexican::guess({}) == "");
+  CHECK(lexican::guess({'a', 0x00, 0xFF}) == "00000000  61 00 FF                                         |a..|");
   const std::string alphabet = "ABCDEFGHIJKLMNOPQ";
-  CHECK(demo::guess(Bytes(alphabet.begin(), alphabet.end())) ==
+  CHECK(lexican::guess(Bytes(alphabet.begin(), alphabet.end())) ==
         "00000000  41 42 43 44 45 46 47 48 49 4A 4B 4C 4D 4E 4F 50  |ABCDEFGHIJKLMNOP|\n"
         "00000010  51                                               |Q|");
 }
 
 TEST_CASE("demo values: a visible string is text without trailing zeros if it is printable [301:7.1.6]") {
-  CHECK(demo::visible_text({'D', ' ', '1'}) == "D 1");
-  CHECK(demo::visible_text({'1', '.', '2', 0, 0}) == "1.2");
-  CHECK(demo::visible_text({0x20, 0x7E}) == " ~");
-  CHECK(demo::visible_text({'a', 0, 'b'}) == "");
-  CHECK(demo::visible_text({'a', 0x1F}) == "");
-  CHECK(demo::visible_text({'a', 0x7F}) == "");
-  CHECK(demo::visible_text({0, 0}) == "");
-  CHECK(demo::visible_text({}) == "");
+  CHECK(lexican::visible_text({'D', ' ', '1'}) == "D 1");
+  CHECK(lexican::visible_text({'1', '.', '2', 0, 0}) == "1.2");
+  CHECK(lexican::visible_text({0x20, 0x7E}) == " ~");
+  CHECK(lexican::visible_text({'a', 0, 'b'}) == "");
+  CHECK(lexican::visible_text({'a', 0x1F}) == "");
+  CHECK(lexican::visible_text({'a', 0x7F}) == "");
+  CHECK(lexican::visible_text({0, 0}) == "");
+  CHECK(lexican::visible_text({}) == "");
 }
 
 TEST_CASE("demo values: the types have their names") {
   for (const char* const name : {"u8", "u64", "i8", "i24", "r32", "r64", "bool", "string", "bytes", "domain"}) {
     CAPTURE(name);
-    CHECK(demo::value_type(name).has_value());
+    CHECK(lexican::value_type(name).has_value());
   }
   for (const char* const name : {"", "u", "u0", "u12", "u72", "r16", "U8", "int"}) {
     CAPTURE(name);
-    CHECK_FALSE(demo::value_type(name).has_value());
+    CHECK_FALSE(lexican::value_type(name).has_value());
   }
 }
 #endif

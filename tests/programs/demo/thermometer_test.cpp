@@ -25,7 +25,7 @@ struct Bench {
     drivers.CanCtx = &bus.attach({"thermometer"});
     drivers.Timer = &co::VirtualTimerDriver;
     drivers.TimerCtx = &timer;
-    demo::make_thermometer(node, drivers, 7);
+    lexican::demo::make_thermometer(node, drivers, 7);
     bus.set_trace([this](const co::VirtualBus::Traffic& traffic) {
       if (traffic.sender != nullptr) {
         heard.push_back(test::notation(traffic.frame));
@@ -75,19 +75,19 @@ TEST_CASE("demo: the thermometer with a handwritten dictionary boots and sends h
 TEST_CASE("demo: the thermometer sends each new temperature in Operational, and an emergency above its limit") {
   Bench bench;
   bench.after(1ms);
-  demo::set_temperature(bench.node, 215);
+  lexican::demo::set_temperature(bench.node, 215);
   CHECK(bench.after(1ms).empty());
   bench.say("000#0107");
-  demo::set_temperature(bench.node, 215);
+  lexican::demo::set_temperature(bench.node, 215);
   CHECK(bench.after(1ms).empty());
-  demo::set_temperature(bench.node, -5);
+  lexican::demo::set_temperature(bench.node, -5);
   CHECK(bench.after(1ms) == Frames{"187#FBFF"});
   CHECK(bench.say("607#2B012000E8FF0000") == Frames{"587#6001200000000000"});
-  demo::set_temperature(bench.node, -24);
+  lexican::demo::set_temperature(bench.node, -24);
   CHECK(bench.after(1ms) == Frames{"187#E8FF"});
-  demo::set_temperature(bench.node, -4);
+  lexican::demo::set_temperature(bench.node, -4);
   CHECK(bench.after(1ms) == Frames{"187#FCFF", "087#0040090000000000"});
-  demo::set_temperature(bench.node, -30);
+  lexican::demo::set_temperature(bench.node, -30);
   CHECK(bench.after(1ms) == Frames{"187#E2FF", "087#0000000000000000"});
 }
 

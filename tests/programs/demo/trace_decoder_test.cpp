@@ -8,9 +8,9 @@
 
 namespace {
 
-using demo::trace::Form;
+using lexican::trace::Form;
 
-const demo::trace::Names names = {
+const lexican::trace::Names names = {
     {0x1000, 0, "device type", Form::hex},
     {0x1008, 0, "device name", Form::characters},
     {0x1017, 0, "heartbeat time", Form::decimal},
@@ -18,17 +18,17 @@ const demo::trace::Names names = {
     {0x2200, 0, "picture", Form::hex},
 };
 
-using demo::trace::Place;
+using lexican::trace::Place;
 
-std::string meaning(const char* frame) { return demo::trace::Decoder(names).decode(test::frame(frame)).text; }
-Place place(const char* frame) { return demo::trace::Decoder(names).decode(test::frame(frame)).place; }
+std::string meaning(const char* frame) { return lexican::trace::Decoder(names).decode(test::frame(frame)).text; }
+Place place(const char* frame) { return lexican::trace::Decoder(names).decode(test::frame(frame)).place; }
 
 /// A decoder for frames that follow one another.
 struct Listener {
   std::string hears(const char* frame) { return decoder.decode(test::frame(frame)).text; }
   Place place(const char* frame) { return decoder.decode(test::frame(frame)).place; }
 
-  demo::trace::Decoder decoder{names};
+  lexican::trace::Decoder decoder{names};
 };
 
 }  // namespace
@@ -100,7 +100,7 @@ TEST_CASE("trace: every abort code of CiA 301 has a unique meaning [301 SDO abor
   };
   for (const std::uint32_t code : codes) {
     CAPTURE(code);
-    CHECK(demo::trace::abort_meaning(code) != std::string("unknown abort code"));
+    CHECK(lexican::trace::abort_meaning(code) != std::string("unknown abort code"));
   }
 }
 
@@ -116,8 +116,8 @@ TEST_CASE("trace: PDOs are named by their CAN-ID [301:7.3.3]") {
 }
 
 TEST_CASE("trace: a PDO whose mapping is known shows its objects [301:7.2.2]") {
-  const demo::trace::Mappings mappings = {{0x180, {{0x2100, 1, 1}, {0x1017, 0, 2}, {0x1234, 5, 4}}}};
-  demo::trace::Decoder decoder(names, mappings);
+  const lexican::trace::Mappings mappings = {{0x180, {{0x2100, 1, 1}, {0x1017, 0, 2}, {0x1234, 5, 4}}}};
+  lexican::trace::Decoder decoder(names, mappings);
   const auto hears = [&](const char* frame) { return decoder.decode(test::frame(frame)).text; };
   CHECK(hears("185#0CE80378563412") == "TPDO1 hour = 12, heartbeat time = 1000, 1234h:05 = 12345678h");
   CHECK(hears("185#0C") == "TPDO1 hour = 12, heartbeat time = 0, 1234h:05 = 00000000h");

@@ -68,7 +68,7 @@ Contradictions check(const Described& described, std::string eds, Check one, tes
   every_c_set_defaults();
   every_cpp_set_defaults();
   Memory memory;
-  const demo::Errors errors = demo::clock_errors();
+  const lexican::Errors errors = lexican::demo::clock_errors();
   GeneratedNode node(described.od, described.length, memory, {errors.first, errors.number});
   REQUIRE(node.fault == CO_DICT_OK);
   return (OdConformance(description.devices.front(), node, area).*one)();
