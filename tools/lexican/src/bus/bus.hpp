@@ -13,12 +13,14 @@
 
 namespace lexican::host_bus {
 
-/// Context: one thread. receive() and send() do not wait.
+/// Context: one thread. receive() and send() do not wait, except that receive() of a log reads its file.
 class Bus {
  public:
   virtual ~Bus() = default;
 
-  /// Returns the descriptor and the events for poll(); the descriptor is -1 while the bus is lost.
+  /// Returns the descriptor and the events for poll(); the descriptor is -1 while the bus is lost. That of a log is
+  /// readable until the log has ended. The caller calls receive() until it returns nothing whenever poll() reports an
+  /// event; receive() also transmits what remains of a frame that send() has queued.
   virtual pollfd wanted() = 0;
   /// Reads the next frame that another participant has sent, or an error frame.
   /// \retval nothing  there is none, or the bus is lost; fault() says why
@@ -39,6 +41,9 @@ class Bus {
   virtual bool is_physical() const = 0;
   /// Returns the bit rate in bit/s; 0: it has none, or it is unknown.
   virtual std::uint32_t bit_rate() const = 0;
+  /// Returns the reader of a bus that is a log: its channels and counters.
+  /// \retval nullptr  the bus is not a log
+  virtual const LogReader* log() const { return nullptr; }
 };
 
 }  // namespace lexican::host_bus

@@ -18,6 +18,7 @@ class ListeningBus : public Bus {
   std::uint64_t lost() const override { return bus_->lost(); }
   bool is_physical() const override { return bus_->is_physical(); }
   std::uint32_t bit_rate() const override { return bus_->bit_rate(); }
+  const LogReader* log() const override { return bus_->log(); }
 
  private:
   std::unique_ptr<Bus> bus_;
@@ -28,6 +29,7 @@ class ListeningBus : public Bus {
 const std::vector<BusKind> bus_kinds = {
     {"hub:", "hub:bench", "a simulated bus between programs on this machine; it needs nothing else",
      [](const std::string& name, const BusOptions& /*options*/, std::string& why) { return open_hub(name, why); }},
+    {"replay:", "replay:FILE", "a log of candump, pcapng, pcap or ASC; - for standard input", open_replay},
     {"", "can0", "a CAN interface of Linux", open_socketcan},
 };
 

@@ -32,4 +32,9 @@ std::unique_ptr<Bus> open_bus(const std::string& name, const BusOptions& options
 /// \retval null  \a why says why
 std::unique_ptr<Bus> open_socketcan(const std::string& name, const BusOptions& options, std::string& why);
 
+/// Opens a log (log.hpp) as a bus on which frames cannot be sent; "-": standard input. receive() returns the entries as
+/// fast as they are requested, with the times of the log. At the end the bus is lost: fault() is "the log has ended",
+/// or the error that ended reading. \retval null  \a why says why
+std::unique_ptr<Bus> open_replay(const std::string& file, const BusOptions& options, std::string& why);
+
 }  // namespace lexican::host_bus
