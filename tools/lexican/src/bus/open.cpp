@@ -30,6 +30,8 @@ const std::vector<BusKind> bus_kinds = {
     {"hub:", "hub:bench", "a simulated bus between programs on this machine; it needs nothing else",
      [](const std::string& name, const BusOptions& /*options*/, std::string& why) { return open_hub(name, why); }},
     {"replay:", "replay:FILE", "a log of candump, pcapng, pcap or ASC; - for standard input", open_replay},
+    {"socketcand:", "socketcand:HOST:29536/can0", "a CAN interface of another machine that runs socketcand",
+     connect_to_socketcand},
     {"", "can0", "a CAN interface of Linux", open_socketcan},
 };
 

@@ -37,4 +37,11 @@ std::unique_ptr<Bus> open_socketcan(const std::string& name, const BusOptions& o
 /// or the error that ended reading. \retval null  \a why says why
 std::unique_ptr<Bus> open_replay(const std::string& file, const BusOptions& options, std::string& why);
 
+/// Connects to a server with the protocol of socketcand: "HOST:PORT/BUS", such as "[::1]:29536/can0". Waits at most 2
+/// s, like restore(), beyond the lookup of the host. The protocol does not say whether the bus is simulated: it is
+/// regarded as physical. send() discards remote frames, and counts them in lost(), as servers before sendrtr do not
+/// know them; lost() also counts frames of the server that are malformed. An error message of the server ends the
+/// connection. \retval null  \a why says why
+std::unique_ptr<Bus> connect_to_socketcand(const std::string& name, const BusOptions& options, std::string& why);
+
 }  // namespace lexican::host_bus
