@@ -14,12 +14,10 @@
 #include "catalogue/suppress.hpp"
 #include "cli/arguments.hpp"
 #include "cli/json.hpp"
-#include "eds/document.hpp"
-#include "json/document.hpp"
+#include "json/input.hpp"
 #include "model/device.hpp"
 #include "text/finding.hpp"
 #include "text/source.hpp"
-#include "xdd/document.hpp"
 
 namespace lexican::codict::cli {
 
@@ -55,26 +53,10 @@ Command add_pdo(CommandLine& line);
 Command add_set(CommandLine& line);
 Command add_size(CommandLine& line);
 
-/// Description that has been read, with the findings of its reader.
-struct Input {
-  std::unique_ptr<const eds::Document> eds;  ///< exactly one of these three pointers is not null
-  std::unique_ptr<const xdd::Document> xdd;
-  std::unique_ptr<const json::Document> json;
-  Findings findings;
-  Description description;
-
-  const Source& source() const;
-  Encoding encoding() const;
-  const Device& device() const { return description.devices.front(); }
-};
-
 /// Reads a description. Prints the reason on the standard error output if that fails.
 std::optional<Input> load(const std::string& path);
 /// Like load(), for commands that do not show the findings of the reader: prints only where it stopped reading.
 std::optional<Input> open(const std::string& path);
-/// Like load(), for a description in memory. On failure, why is the reason in one line.
-std::optional<Input> read(Source source, std::string& why);
-
 /// Adds the findings of the checks, sorted by place, without those that comments in the description suppress.
 void check_all(Input& input);
 

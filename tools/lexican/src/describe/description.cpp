@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "describe/description.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "json/input.hpp"
+#include "text/file.hpp"
+#include "trace/text.hpp"
+
+namespace lexican::describe {
+namespace {
+
+constexpr std::size_t most_shown = 64;  // bytes of a value in a line
+
+struct Standard {
+  std::uint16_t first;
+  std::uint16_t last;
+  std::string_view name;
+};
+
+/// Names of the communication profile. [301:7.5.2]
+constexpr Standard standard[] = {
+    {0x1000, 0x1000, "device type"},
+    {0x1001, 0x1001, "error register"},
+    {0x1002, 0x1002, "manufacturer status register"},
+    {0x1003, 0x1003, "pre-defined error field"},
+    {0x1005, 0x1005, "COB-ID SYNC"},
+    {0x1006, 0x1006, "communication cycle period"},
+    {0x1007, 0x1007, "synchronous window length"},
+    {0x1008, 0x1008, "manufacturer device name"},
+    {0x1009, 0x1009, "manufacturer hardware version"},
+    {0x100A, 0x100A, "manufacturer software version"},
+    {0x100C, 0x100C, "guard time"},
+    {0x100D, 0x100D, "life time factor"},
+    {0x1010, 0x1010, "store parameters"},
+    {0x1011, 0x1011, "restore default parameters"},
+    {0x1012, 0x1012, "COB-ID TIME"},
+    {0x1013, 0x1013, "high resolution time stamp"},
+    {0x1014, 0x1014, "COB-ID EMCY"},
+    {0x1015, 0x1015, "inhibit time EMCY"},
+    {0x1016, 0x1016, "consumer heartbeat time"},
+    {0x1017, 0x1017, "producer heartbeat time"},
+    {0x1018, 0x1018, "identity object"},
+    {0x1019, 0x1019, "synchronous counter overflow value"},
+    {0x1020, 0x1020, "verify configuration"},
+    {0x1021, 0x1021, "store EDS"},
+    {0x1022, 0x1022, "storage format"},
+    {0x1023, 0x1023, "OS command"},
+    {0x1024, 0x1024, "OS command mode"},
+    {0x1025, 0x1025, "OS debugger interface"},
+    {0x1026, 0x1026, "OS prompt"},
+    {0x1027, 0x1027, "module list"},
+    {0x1028, 0x1028, "emergency consumer object"},
+    {0x1029, 0x1029, "error behavior object"},
+    {0x1200, 0x127F, "SDO server parameter"},
+    {0x1280, 0x12FF, "SDO client parameter"},
+    {0x1300, 0x1300, "global fail-safe command parameter"},
+    {0x1301, 0x1340, "SRDO communication parameter"},
+    {0x1381, 0x13C0, "SRDO mapping parameter"},
+    {0x1400, 0x15FF, "RPDO communication parameter"},
+    {0x1600, 0x17FF, "RPDO mapping parameter"},
+    {0x1800, 0x19FF, "TPDO communication parameter"},
+    {0x1A00, 0x1BFF, "TPDO mapping parameter"},
+    {0x1F50, 0x1F50, "program data"},
+    {0x1F51, 0x1F51, "program control"},
+    {0x1F80, 0x1F80, "NMT startup"},
+};
+
+constexpr std::string_view identity[] = {"", "vendor-ID", "product code", "revision number", "serial number"};
+
+std::string shown_bytes(const Bytes& bytes) {
+  const std::size_t shown = std::min(bytes.size(), most_shown);
+  return hex_bytes(bytes.data(), shown) + (shown < bytes.size() ? " ..." : "");
+}
+
+/// Returns a value whose type is unknown.
+std::string guessed(const Bytes& bytes) {
+  const std::string text = bytes.size() > 4 ? visible_text(bytes) : std::string();
+  if (!text.empty()) {
+    return '"' + text.substr(0, most_shown) + (text.size() > most_shown ? "\" ..." : "\"");
+  }
+  std::uint64_t number = 0;
+  for (std::size_t n = 0; n < bytes.size() && n < sizeof number; ++n) {
+    number |= std::uint64_t{bytes[n]} << (8 * n);
+  }
+  const bool is_number = bytes.size() == 1 || bytes.size() == 2 || bytes.size() == 4 || bytes.size() == 8;
+  return is_number ? fmt::format("{:0{}X}h", number, 2 * bytes.size()) : shown_bytes(bytes);
+}
+
+std::string_view unit_of(const codict::Entry& entry) { return codict::text_in(entry.unit->texts.labels, "en"); }
+
+/// Returns the name of a value of an enumeration; empty if it has none.
+std::string_view name_of_value(const codict::Device& device, const codict::Entry& entry, const std::string& shown) {
+  for (const codict::AllowedValue& allowed : codict::allowed_values_of(device, entry)) {
+    if (allowed.value.is_integer() && allowed.value.written_integer() == shown) {
+      return codict::text_in(allowed.texts.labels, "en");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string_view standard_name(std::uint16_t index, std::uint8_t sub_index) {
+  if (index == 0x1018 && sub_index > 0 && sub_index < std::size(identity)) {
+    return identity[sub_index];
+  }
+  const auto* const row = std::find_if(std::begin(standard), std::end(standard), [=](const Standard& range) {
+    return index >= range.first && index <= range.last;
+  });
+  return row != std::end(standard) ? row->name : std::string_view();
+}
+
+std::string key_of(std::uint16_t index, std::uint8_t sub_index, bool has_sub_objects) {
+  return has_sub_objects ? fmt::format("{:04X}h:{:02X}", index, sub_index) : fmt::format("{:04X}h", index);
+}
+
+std::string Description::name_of(std::uint16_t index, std::uint8_t sub_index) const {
+  const codict::Object* const object = device_ != nullptr ? device_->find(index) : nullptr;
+  if (object == nullptr) {
+    return std::string(standard_name(index, sub_index));
+  }
+  const codict::Entry* const entry = device_->find(index, sub_index);
+  if (entry == nullptr || static_cast<const codict::Entry*>(object) == entry || entry->name.text == object->name.text) {
+    return object->name.text;
+  }
+  return object->name.text + ", " + entry->name.text;
+}
+
+std::string Description::object(std::uint16_t index, std::uint8_t sub_index) const {
+  const codict::Object* const object = device_ != nullptr ? device_->find(index) : nullptr;
+  const bool has_sub_objects = object == nullptr || codict::has_sub_objects(object->object_code.value);
+  const std::string name = name_of(index, sub_index);
+  return key_of(index, sub_index, has_sub_objects || sub_index != 0) + (name.empty() ? "" : ' ' + name);
+}
+
+std::optional<ValueType> Description::type_of(std::uint16_t index, std::uint8_t sub_index) const {
+  const codict::Entry* const entry = device_ != nullptr ? device_->find(index, sub_index) : nullptr;
+  if (entry == nullptr) {
+    return std::nullopt;
+  }
+  const codict::DataType& type = codict::data_type_of(*device_, entry->data_type.value);
+  const unsigned bytes = (type.bits + 7U) / 8U;
+  switch (type.kind) {
+    case codict::TypeKind::boolean: return ValueType{ValueType::Kind::boolean, 1};
+    case codict::TypeKind::signed_integer: return ValueType{ValueType::Kind::integer, bytes};
+    case codict::TypeKind::unsigned_integer: return ValueType{ValueType::Kind::unsigned_integer, bytes};
+    case codict::TypeKind::real: return ValueType{ValueType::Kind::real, bytes};
+    case codict::TypeKind::visible_string: return ValueType{ValueType::Kind::text, 0};
+    case codict::TypeKind::octet_string:
+    case codict::TypeKind::unicode_string:
+    case codict::TypeKind::domain: return ValueType{ValueType::Kind::bytes, 0};
+    default: return std::nullopt;
+  }
+}
+
+std::string Description::show(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) const {
+  const std::optional<ValueType> type = type_of(index, sub_index);
+  const Shown shown = type && !bytes.empty() ? lexican::show(*type, bytes) : Shown{{}, "unknown"};
+  if (!shown.fault.empty() || type->kind == ValueType::Kind::text) {
+    return guessed(bytes);
+  }
+  if (type->kind == ValueType::Kind::bytes) {
+    return shown_bytes(bytes);
+  }
+  const codict::Entry& entry = *device_->find(index, sub_index);
+  const std::string_view name = name_of_value(*device_, entry, shown.text);
+  const std::string_view unit = unit_of(entry);
+  return shown.text + (unit.empty() ? "" : fmt::format(" {}", unit)) + (name.empty() ? "" : fmt::format(" ({})", name));
+}
+
+std::optional<Description> read_description(const std::string& path, std::string& why) {
+  std::optional<codict::Source> source = codict::read_file(path, why);
+  if (!source) {
+    return std::nullopt;
+  }
+  const std::string name = source->name();
+  std::optional<codict::Input> input = codict::read(std::move(*source), why);
+  why = why.empty() ? why : name + ": " + why;
+  return input ? std::optional(Description(std::move(input->description.devices.front()))) : std::nullopt;
+}
+
+bool Network::add(const std::string& argument, std::string& why) {
+  const std::size_t equals = argument.find('=');
+  unsigned node = 0;
+  const char* const end = argument.data() + std::min(equals, argument.size());
+  const bool has_node =
+      equals != std::string::npos && std::from_chars(argument.data(), end, node).ptr == end && node != 0;
+  if (has_node && node > 127) {
+    why = argument + ": node-IDs are 1 to 127";
+    return false;
+  }
+  const std::string path = has_node ? argument.substr(equals + 1) : argument;
+  if (std::filesystem::is_directory(path)) {
+    return add_directory(path, why);
+  }
+  return add_file(static_cast<std::uint8_t>(node), path, why);
+}
+
+bool Network::add_file(std::uint8_t node, const std::string& path, std::string& why) {
+  std::optional<Description> description = read_description(path, why);
+  if (description) {
+    const std::uint8_t commissioned = description->device()->commissioning.node_id.value;
+    nodes_[node != 0 ? node : commissioned <= 127 ? commissioned : std::uint8_t{0}] = std::move(*description);
+  }
+  return description.has_value();
+}
+
+bool Network::add_directory(const std::string& path, std::string& why) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    std::string extension = entry.path().extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return static_cast<char>(c | 0x20); });
+    if (extension == ".eds" || extension == ".dcf" || extension == ".xdd" || extension == ".xdc") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) {
+    why = path + " has no EDS, DCF, XDD or XDC file";
+    return false;
+  }
+  return std::all_of(files.begin(), files.end(), [&](const auto& file) { return add_file(0, file.string(), why); });
+}
+
+const Description& Network::of(std::uint8_t node) const {
+  static const Description unknown;
+  const auto found = nodes_.find(node);
+  const auto other = nodes_.find(0);
+  return found != nodes_.end() ? found->second : other != nodes_.end() ? other->second : unknown;
+}
+
+}  // namespace lexican::describe

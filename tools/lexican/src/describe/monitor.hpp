@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file monitor.hpp
+/// Puts the frames of a bus into words: an event for each message, and one for each SDO transfer. The memory in use
+/// does not depend on the number of frames.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "describe/description.hpp"
+#include "describe/sdo_transfer.hpp"
+#include "trace/decode.hpp"
+
+namespace lexican::describe {
+
+enum class Service : std::uint8_t { nmt, state, emcy, sync, time, pdo, sdo, lss, safety, error, other };
+
+/// Names of the services, in the order of Service.
+inline constexpr const char* service_names[] = {"nmt", "state", "emcy",   "sync",  "time", "pdo",
+                                                "sdo", "lss",   "safety", "error", "other"};
+
+struct Event {
+  Micros time = 0;
+  Service service = Service::other;
+  std::uint8_t node = 0;  ///< node-ID; 0: none, or all
+  std::string text;
+  bool is_fault = false;     ///< EMCY, an SDO transfer that failed, a bus error
+  bool is_repeated = false;  ///< a heartbeat without a change, a further SYNC, the same bus error again
+  const SdoTransfer* sdo = nullptr;
+};
+
+/// Numbers of the frames so far.
+struct Statistics {
+  static constexpr std::size_t most_identifiers = 4096;  ///< frames with further ones are counted in `frames` only
+
+  Micros first = 0;  ///< time of the first frame
+  Micros last = 0;
+  std::uint64_t frames = 0;  ///< without error frames
+  std::uint64_t bits = 0;    ///< of the frames on the wire, with stuff bits and intermissions
+  std::uint64_t errors = 0;  ///< error frames
+  std::map<std::uint32_t, std::uint64_t> by_identifier;  ///< with CO_IF_FRM_EXT and CO_IF_FRM_RTR
+
+  /// Returns the load of the bus in per cent; 0 without bit rate or duration.
+  double load(std::uint32_t bit_rate) const;
+};
+
+/// Context: one thread.
+class Monitor {
+ public:
+  using Show = std::function<void(const Event&)>;
+
+  /// \a network must outlive the monitor. \a show is called for each event.
+  Monitor(const Network& network, Show show);
+
+  /// Processes the next frame of the bus.
+  void process(const host_bus::Entry& entry);
+  /// Reports transfers without an answer. \a now: time of the bus.
+  void expire(Micros now);
+  /// Reports open transfers at the end of the log.
+  void finish();
+
+  const Statistics& statistics() const { return statistics_; }
+
+ private:
+  struct Mapped {
+    std::uint16_t index;
+    std::uint8_t sub_index;
+    std::uint8_t bits;
+  };
+  struct Pdo {
+    std::uint8_t node = 0;
+    bool is_transmit = false;
+    std::uint16_t number = 0;
+    std::uint32_t cob_id = 0x80000000;
+    std::vector<std::uint32_t> entries;  ///< of the mapping parameter, sub-indices 1 …
+    std::uint8_t count = 0;              ///< sub-index 0
+  };
+  using PdoKey = std::uint32_t;
+
+  void count(const host_bus::Entry& entry);
+  void classic(const host_bus::Entry& entry);
+  bool sdo(const host_bus::Entry& entry);
+  void report(std::uint8_t node, const SdoTransfer& transfer);
+  void learn(std::uint8_t node, const SdoTransfer& transfer);
+  void describe_pdos(std::uint8_t node);
+  void set_cob_id(PdoKey key, Pdo& pdo, std::uint32_t cob_id);
+  std::string show_pdo(const Pdo& pdo, const CO_IF_FRM& frame) const;
+  void state(Event& event, const CO_IF_FRM& frame);
+  void error(Event& event, const CO_IF_FRM& frame);
+
+  const Network& network_;
+  Show show_;
+  Statistics statistics_;
+  trace::Decoder decoder_;
+  std::array<SdoFollower, 128> servers_{};
+  unsigned open_servers_ = 0;                ///< with a transfer that has not ended
+  std::array<std::uint16_t, 128> states_{};  ///< of error control; 0: unknown
+  std::map<PdoKey, Pdo> pdos_;
+  std::unordered_map<std::uint32_t, PdoKey> by_cob_id_;
+  bool is_synchronised_ = false;  ///< a SYNC was seen
+  std::string last_error_;
+};
+
+}  // namespace lexican::describe
