@@ -44,6 +44,8 @@ class Bus {
   /// Returns the reader of a bus that is a log: its channels and counters.
   /// \retval nullptr  the bus is not a log
   virtual const LogReader* log() const { return nullptr; }
+  /// Returns a line for the user, such as the path of a pseudo-terminal; empty: there is none.
+  virtual std::string note() const { return {}; }
 };
 
 }  // namespace lexican::host_bus

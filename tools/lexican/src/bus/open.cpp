@@ -19,6 +19,7 @@ class ListeningBus : public Bus {
   bool is_physical() const override { return bus_->is_physical(); }
   std::uint32_t bit_rate() const override { return bus_->bit_rate(); }
   const LogReader* log() const override { return bus_->log(); }
+  std::string note() const override { return bus_->note(); }
 
  private:
   std::unique_ptr<Bus> bus_;
@@ -32,6 +33,9 @@ const std::vector<BusKind> bus_kinds = {
     {"replay:", "replay:FILE", "a log of candump, pcapng, pcap or ASC; - for standard input", open_replay},
     {"socketcand:", "socketcand:HOST:29536/can0", "a CAN interface of another machine that runs socketcand",
      connect_to_socketcand},
+    {"slcan:", "slcan:/dev/ttyACM0@500k", "a serial or USB adapter", open_slcan},
+    {"slcan-tcp:", "slcan-tcp:192.168.0.7:29537", "an slcan adapter behind TCP", open_slcan_tcp},
+    {"slcan-pty", "slcan-pty", "a pseudo-terminal that another program opens as its slcan adapter", open_slcan_pty},
     {"", "can0", "a CAN interface of Linux", open_socketcan},
 };
 

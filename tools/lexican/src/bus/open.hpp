@@ -44,4 +44,19 @@ std::unique_ptr<Bus> open_replay(const std::string& file, const BusOptions& opti
 /// connection. \retval null  \a why says why
 std::unique_ptr<Bus> connect_to_socketcand(const std::string& name, const BusOptions& options, std::string& why);
 
+/// Opens a serial device or a Unix socket with an slcan adapter, DEV[@RATE]. Sends C, S0 to S8 (if there is a rate),
+/// and O or L. \retval null  \a why says why
+std::unique_ptr<Bus> open_slcan(const std::string& name, const BusOptions& options, std::string& why);
+
+/// Opens an slcan adapter behind TCP, HOST:PORT[@RATE], and sends the same commands. Waits at most two seconds for the
+/// connection, and for the lookup of the name, which is not repeated by Bus::restore().
+/// \retval null  \a why says why
+std::unique_ptr<Bus> open_slcan_tcp(const std::string& name, const BusOptions& options, std::string& why);
+
+/// Creates a pseudo-terminal that another program opens as its slcan adapter. Bus::note() returns its path. Frames are
+/// discarded until this program has sent O or L; Bus::bit_rate() is that of its command S0 to S8, else that of
+/// \a options. It cannot send after L, like at an adapter.
+/// \retval null  \a why says why
+std::unique_ptr<Bus> open_slcan_pty(const std::string& name, const BusOptions& options, std::string& why);
+
 }  // namespace lexican::host_bus
