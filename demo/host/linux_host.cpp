@@ -5,39 +5,6 @@
 #include <chrono>
 
 namespace lexican::demo {
-namespace {
-
-volatile sig_atomic_t interrupted = 0;
-
-void note_signal(int) { interrupted = 1; }
-
-void handle(int signal, void (*handler)(int)) {
-  struct sigaction action {};
-  action.sa_handler = handler;
-  sigaction(signal, &action, nullptr);
-}
-
-}  // namespace
-
-Interruption::Interruption() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  interrupted = 0;
-  sigprocmask(SIG_BLOCK, &signals, &before_);
-  handle(SIGINT, note_signal);
-  handle(SIGTERM, note_signal);
-}
-
-Interruption::~Interruption() {
-  handle(SIGINT, SIG_DFL);
-  handle(SIGTERM, SIG_DFL);
-  sigprocmask(SIG_SETMASK, &before_, nullptr);
-}
-
-bool Interruption::happened() { return interrupted != 0; }
-
 void LinuxHost::wait(Micros time) {
   std::vector<pollfd> ends = poll_descriptors();
   timespec timeout{};

@@ -4,35 +4,18 @@
 #pragma once
 
 #include <poll.h>
-#include <signal.h>
 
 #include <string>
 #include <vector>
 
 #include "host/host.hpp"
+#include "host/interruption.hpp"
 #include "linux_timer.hpp"
 #include "socketcan.hpp"
 #include "virtual_bus.hpp"
 #include "virtual_clock.hpp"
 
 namespace lexican::demo {
-
-/// Stores SIGINT and SIGTERM during its lifetime, instead of ending the program. The signals are unblocked only while
-/// the program waits, so that none is missed between happened() and the wait. One instance at a time.
-class Interruption {
- public:
-  Interruption();
-  ~Interruption();
-  Interruption(const Interruption&) = delete;
-  Interruption& operator=(const Interruption&) = delete;
-
-  static bool happened();
-  /// Returns the signal mask for the wait.
-  const sigset_t& while_waiting() const { return before_; }
-
- private:
-  sigset_t before_{};
-};
 
 class LinuxHost : public Host {
  public:

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <ostream>
 #include <string>
 
 #include "host/host.hpp"
@@ -41,6 +42,39 @@ class Progress {
   std::function<void(const std::string&)> show_;
   std::uint32_t quarters_ = 0;  // already shown
   Micros shown_at_ = 0;         // elapsed time when the last text was shown
+};
+
+/// Prints the texts of a Progress. A bar overwrites the previous one in the same line, which end() ends.
+class ProgressLine {
+ public:
+  ProgressLine(std::ostream& err, Progress::Form form)
+      : err_(err),
+        is_bar_(form == Progress::Form::bar),
+        progress_(form, [this](const std::string& text) { show(text); }) {}
+
+  void update(const Amount& amount) {
+    last_ = amount;
+    progress_.update(amount);
+  }
+
+  void end() {
+    if (begun_) {
+      show(progress_text(last_));
+      err_ << std::endl;
+    }
+  }
+
+ private:
+  void show(const std::string& text) {
+    err_ << (is_bar_ ? "\r" + text + "\033[K" : text + '\n') << std::flush;
+    begun_ = is_bar_;
+  }
+
+  std::ostream& err_;
+  bool is_bar_;
+  bool begun_ = false;  // a bar was printed, and its line has not been ended
+  Progress progress_;
+  Amount last_{};
 };
 
 }  // namespace lexican

@@ -16,39 +16,6 @@ namespace {
 // Limit of the time in which frames that are still queued, such as an abort, are transmitted before the program ends.
 constexpr Micros flush_time = 100 * millisecond;
 
-/// Prints the texts of a Progress. A bar overwrites the previous one in the same line, which end() ends.
-class ProgressLine {
- public:
-  ProgressLine(std::ostream& err, Progress::Form form)
-      : err_(err),
-        is_bar_(form == Progress::Form::bar),
-        progress_(form, [this](const std::string& text) { show(text); }) {}
-
-  void update(const Amount& amount) {
-    last_ = amount;
-    progress_.update(amount);
-  }
-
-  void end() {
-    if (begun_) {
-      show(progress_text(last_));
-      err_ << std::endl;
-    }
-  }
-
- private:
-  void show(const std::string& text) {
-    err_ << (is_bar_ ? "\r" + text + "\033[K" : text + '\n') << std::flush;
-    begun_ = is_bar_;
-  }
-
-  std::ostream& err_;
-  bool is_bar_;
-  bool begun_ = false;  // a bar was printed, and its line has not been ended
-  Progress progress_;
-  Amount last_{};
-};
-
 Transfer transfer(const Request& request, SdoClient& sdo, const SdoClient::Options& options) {
   return request.write ? sdo.download(request.index, request.sub, request.data, options)
                        : sdo.upload(request.index, request.sub, options);

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+// lexican mon: shows in words what happens on a bus, or in a log.
+#include <fmt/format.h>
+#include <poll.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "describe/monitor.hpp"
+#include "program/verb.hpp"
+
+namespace lexican::program {
+namespace {
+
+using describe::Event;
+using describe::Service;
+using host_bus::Entry;
+using host_bus::Micros;
+
+constexpr Micros reopen_interval = 500'000;
+
+struct Options {
+  Common common;
+  std::string log;  ///< positional: a log instead of a bus
+  std::vector<std::string> nodes;
+  std::vector<Service> services;
+  std::vector<std::string> objects;
+  std::string record;  ///< --log
+  bool shows_all = false;
+};
+
+/// Prints events, as text or as JSON.
+class Printer {
+ public:
+  explicit Printer(const Options& options) : options_(options), has_colour_(program::has_colour()) {
+    for (const std::string& node : options.nodes) {
+      nodes_.insert(node_of(node));
+    }
+    services_.insert(options.services.begin(), options.services.end());
+  }
+
+  void show(const Event& event) {
+    if (first_ == 0) {
+      first_ = event.time;
+    }
+    if (is_wanted(event)) {
+      options_.common.is_json ? print_json(event) : print_text(event);
+    }
+  }
+  void begin_at(Micros time) { first_ = first_ == 0 ? time : first_; }
+  /// Returns a time since the first frame in seconds.
+  double seconds(Micros time) const { return time < first_ ? 0.0 : static_cast<double>(time - first_) / 1e6; }
+
+ private:
+  bool is_wanted(const Event& event) const {
+    return (options_.shows_all || !event.is_repeated || services_.count(event.service) != 0) &&
+           (nodes_.empty() || nodes_.count(event.node) != 0) &&
+           (services_.empty() || services_.count(event.service) != 0) && has_object(event);
+  }
+
+  bool has_object(const Event& event) const {
+    return options_.objects.empty() ||
+           std::any_of(options_.objects.begin(), options_.objects.end(),
+                       [&](const std::string& word) { return event.text.find(word) != std::string::npos; });
+  }
+
+  void print_text(const Event& event) const {
+    const std::string node = event.node == 0 ? "-" : std::to_string(event.node);
+    const char* const begin = has_colour_ && event.is_fault ? "\033[31m" : "";
+    std::string line = fmt::format("{:9.3f} {:>3}  {}{}{}", seconds(event.time), node, begin, event.text,
+                                   *begin != '\0' ? "\033[0m" : "");
+    if (event.sdo != nullptr && event.sdo->time > event.sdo->begin) {
+      line += fmt::format("  {:.1f} ms", static_cast<double>(event.sdo->time - event.sdo->begin) / 1000);
+    }
+    print(line + '\n');
+  }
+
+  void print_json(const Event& event) const {
+    nlohmann::json json = {{"time", seconds(event.time)},
+                           {"service", describe::service_names[static_cast<std::size_t>(event.service)]},
+                           {"text", event.text}};
+    if (event.node != 0) {
+      json["node"] = event.node;
+    }
+    if (event.is_fault) {
+      json["fault"] = true;
+    }
+    if (event.sdo != nullptr) {
+      const describe::SdoTransfer& transfer = *event.sdo;
+      std::string data;
+      for (const std::uint8_t byte : transfer.data) {
+        data += fmt::format("{:02X}", byte);
+      }
+      json["sdo"] = {{"index", transfer.index},
+                     {"sub", transfer.sub_index},
+                     {"write", transfer.is_download},
+                     {"bytes", transfer.size},
+                     {"data", data},
+                     {"duration", static_cast<double>(transfer.time - transfer.begin) / 1e6}};
+      if (transfer.abort_code != 0) {
+        json["sdo"]["abort"] = transfer.abort_code;
+      }
+    }
+    print(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+  }
+
+  const Options& options_;
+  bool has_colour_;
+  std::set<unsigned> nodes_;
+  std::set<Service> services_;
+  Micros first_ = 0;
+};
+
+/// A file that records all frames (--log).
+class Recorder {
+ public:
+  /// \retval false  the file cannot be written; the reason is printed
+  bool open(const std::string& path) {
+    file_.open(path, std::ios::binary);
+    log_ = file_ ? host_bus::write_log(file_, path, "can0") : nullptr;
+    if (log_ == nullptr) {
+      print_message(file_ ? path + ": a log is written with the ending .log or .pcapng" : path + " cannot be written");
+    }
+    return log_ != nullptr;
+  }
+
+  void write(const Entry& entry, std::uint64_t lost) {
+    if (log_ == nullptr) {
+      return;
+    }
+    if (lost > lost_) {
+      log_->write_lost(entry.time, static_cast<std::uint32_t>(lost - lost_));
+      lost_ = lost;
+    }
+    log_->write(entry);
+  }
+
+  /// \retval false  the file is not complete
+  bool close() {
+    file_.flush();
+    return log_ == nullptr || file_.good();
+  }
+
+ private:
+  std::ofstream file_;
+  std::unique_ptr<host_bus::LogWriter> log_;
+  std::uint64_t lost_ = 0;
+};
+
+std::string identifier_text(std::uint32_t identifier) {
+  const std::uint32_t number = identifier & CO_IF_FRM_ID;
+  return fmt::format((identifier & CO_IF_FRM_EXT) != 0 ? "{:08X}h" : "{:03X}h", number) +
+         ((identifier & CO_IF_FRM_RTR) != 0 ? " remote" : "");
+}
+
+class Mon {
+ public:
+  Mon(const Options& options, const describe::Network& network)
+      : options_(options), printer_(options), monitor_(network, [this](const Event& event) { printer_.show(event); }) {}
+
+  int run(host_bus::Bus& bus) {
+    const Interruption interruption;
+    Micros reopened = 0;
+    while (!Interruption::happened()) {
+      receive(bus);
+      if (bus.wanted().fd < 0 && bus.log() != nullptr) {
+        break;
+      }
+      if (bus.wanted().fd < 0) {
+        reopen(bus, reopened);
+      }
+      std::fflush(stdout);
+      wait(bus, interruption);
+    }
+    monitor_.finish();
+    return finish(bus);
+  }
+
+  Recorder& recorder() { return recorder_; }
+
+ private:
+  /// Tries to open a lost bus again, and says when it is lost and when it is back.
+  void reopen(host_bus::Bus& bus, Micros& last) {
+    if (!is_lost_) {
+      print_message(bus.fault() + "; waiting for it");
+      is_lost_ = true;
+    }
+    const Micros now = monotonic();
+    if (now - last < reopen_interval) {
+      return;
+    }
+    last = now;
+    if (bus.restore()) {
+      print_message("the bus is back");
+      is_lost_ = false;
+    }
+  }
+
+  static Micros monotonic() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<Micros>(now.tv_sec) * 1'000'000 + static_cast<Micros>(now.tv_nsec) / 1000;
+  }
+
+  static Micros wall() {
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    return static_cast<Micros>(now.tv_sec) * 1'000'000 + static_cast<Micros>(now.tv_nsec) / 1000;
+  }
+
+  void receive(host_bus::Bus& bus) {
+    while (const std::optional<Entry> entry = bus.receive()) {
+      printer_.begin_at(entry->time);
+      recorder_.write(*entry, bus.lost());
+      monitor_.process(*entry);
+      if (Interruption::happened()) {
+        return;
+      }
+    }
+    if (bus.log() == nullptr) {
+      monitor_.expire(wall());
+    }
+  }
+
+  static void wait(host_bus::Bus& bus, const Interruption& interruption) {
+    pollfd wanted = bus.wanted();
+    constexpr timespec timeout{0, 200'000'000};
+    ppoll(&wanted, 1, &timeout, &interruption.while_waiting());
+  }
+
+  int finish(const host_bus::Bus& bus) {
+    const describe::Statistics& numbers = monitor_.statistics();
+    const std::uint32_t rate = options_.common.rate.empty() ? bus.bit_rate() : bit_rate_of(options_.common.rate);
+    options_.common.is_json ? print_json_numbers(numbers, rate, bus) : print_numbers(numbers, rate, bus);
+    if (!recorder_.close()) {
+      print_message("the log is not complete: the file cannot be written");
+      return usage;
+    }
+    if (bus.log() != nullptr && !bus.log()->fault().empty()) {
+      print_message(bus.log()->fault());
+      return usage;
+    }
+    return bus.log() != nullptr ? ok : numbers.frames + numbers.errors == 0 ? no_answer : ok;
+  }
+
+  void print_numbers(const describe::Statistics& numbers, std::uint32_t rate, const host_bus::Bus& bus) const {
+    const double duration = static_cast<double>(numbers.last - numbers.first) / 1e6;
+    print(fmt::format("\n{} frames in {:.3f} s", numbers.frames, duration));
+    if (rate != 0 && duration > 0) {
+      print(fmt::format(", bus load {:.1f} % of {} kbit/s", numbers.load(rate), rate / 1000));
+    }
+    print(fmt::format(", {} error frames, {} lost\n", numbers.errors, bus.lost()));
+    if (bus.log() != nullptr && bus.log()->malformed() + bus.log()->other_frames() != 0) {
+      print(fmt::format("{} lines are malformed, {} frames are CAN FD or XL\n", bus.log()->malformed(),
+                        bus.log()->other_frames()));
+    }
+    for (const auto& [identifier, count] : numbers.by_identifier) {
+      print(fmt::format("{:>11} {:>9}", identifier_text(identifier), count) +
+            (duration > 0 ? fmt::format(" {:>9.1f}/s\n", static_cast<double>(count) / duration) : std::string("\n")));
+    }
+  }
+
+  static void print_json_numbers(const describe::Statistics& numbers, std::uint32_t rate, const host_bus::Bus& bus) {
+    nlohmann::json identifiers = nlohmann::json::object();
+    for (const auto& [identifier, count] : numbers.by_identifier) {
+      identifiers[identifier_text(identifier)] = count;
+    }
+    const nlohmann::json json = {{"frames", numbers.frames},
+                                 {"duration", static_cast<double>(numbers.last - numbers.first) / 1e6},
+                                 {"load", numbers.load(rate)},
+                                 {"errors", numbers.errors},
+                                 {"lost", bus.lost()},
+                                 {"identifiers", identifiers}};
+    print(json.dump() + '\n');
+  }
+
+  const Options& options_;
+  Printer printer_;
+  describe::Monitor monitor_;
+  Recorder recorder_;
+  bool is_lost_ = false;
+};
+
+int run(Options& options) {
+  if (!options.log.empty()) {
+    options.common.bus = "replay:" + options.log;
+  }
+  describe::Network network;
+  if (!read_descriptions(options.common, network)) {
+    return usage;
+  }
+  for (const std::string& node : options.nodes) {
+    if (node_of(node) == 0) {
+      print_message("'" + node + "' is no node-ID, which is 1 to 127");
+      return usage;
+    }
+  }
+  int status = ok;
+  const std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, true, status);
+  if (bus == nullptr) {
+    return options.log.empty() ? status : usage;
+  }
+  Mon mon(options, network);
+  return options.record.empty() || mon.recorder().open(options.record) ? mon.run(*bus) : usage;
+}
+
+}  // namespace
+
+Verb add_mon(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  Arguments arguments = line.add_command("mon", "Show in words what happens on a bus, or in a log");
+  arguments.add_option("file", options->log, "Log of candump, pcapng, pcap or ASC instead of a bus, - for standard input");
+  add_bus_options(arguments, options->common);
+  add_eds_option(arguments, options->common);
+  arguments.add_option("-n,--node", options->nodes, "Only these nodes").single_values();
+  codict::cli::Choices<Service> services;
+  for (std::size_t n = 0; n < std::size(describe::service_names); ++n) {
+    services.emplace_back(describe::service_names[n], static_cast<Service>(n));
+  }
+  arguments.add_choices("--service", options->services, services, "Only these services");
+  arguments.add_option("--object", options->objects, "Only lines with this index or name").single_values();
+  arguments.add_option("--log", options->record, "Record all frames: FILE.pcapng, else in the format of candump");
+  arguments.add_flag("--all", options->shows_all, "Also heartbeats without a change, and each SYNC");
+  return {arguments, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::program

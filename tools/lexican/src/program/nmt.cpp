@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// lexican nmt: sends an NMT command, and waits until the device has the state.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "program/session.hpp"
+
+namespace lexican::program {
+namespace {
+
+struct Command {
+  const char* name;
+  CO_NMT_COMMAND specifier;
+  std::uint8_t state;  ///< that error control shows afterwards; a reset ends with a boot-up message, 0
+};
+
+constexpr Command commands[] = {
+    {"start", CO_NMT_COMMAND_START, 0x05},        {"stop", CO_NMT_COMMAND_STOP, 0x04},
+    {"preop", CO_NMT_COMMAND_PREOP, 0x7F},        {"reset", CO_NMT_COMMAND_RESET_NODE, 0x00},
+    {"reset-comm", CO_NMT_COMMAND_RESET_COM, 0x00},
+};
+
+struct Options {
+  Common common;
+  std::string command;
+  std::string node;
+  bool is_sure = false;
+};
+
+/// Asks on the terminal.
+/// \retval true  the answer is yes
+bool is_confirmed(const std::string& question) {
+  fmt::print(stderr, "{} [y/N] ", question);
+  char answer[16] = "";
+  return std::fgets(answer, sizeof answer, stdin) != nullptr && (answer[0] == 'y' || answer[0] == 'Y');
+}
+
+std::string state_text(std::uint8_t state) {
+  switch (state) {
+    case 0x00: return "boot-up";
+    case 0x04: return "stopped";
+    case 0x05: return "operational";
+    case 0x7F: return "pre-operational";
+    default: return fmt::format("unknown state {:02X}h", state);
+  }
+}
+
+/// Waits for the state on the bus. Frames pass the node of the session by, as it is not needed any more.
+int wait_for_state(Session& session, std::uint8_t node, const Command& command, const Options& options) {
+  const Micros begin = session.loop().now();
+  std::uint8_t last = 0xFF;
+  while (session.loop().now() - begin < options.common.timeout * millisecond && !session.loop().interrupted()) {
+    while (const std::optional<host_bus::Entry> entry = session.bus().receive()) {
+      if (entry->frame.Identifier != 0x700U + node || entry->frame.DLC != 1) {
+        continue;
+      }
+      last = entry->frame.Data[0] & 0x7FU;
+      if (last == command.state) {
+        return ok;
+      }
+    }
+    session.host().wait(10 * millisecond);
+  }
+  if (session.is_interrupted()) {
+    return interrupted;
+  }
+  if (!session.bus().fault().empty()) {
+    print_message(session.bus().fault());
+    return bus_fault;
+  }
+  if (last == 0xFF) {
+    print_message(fmt::format("sent; node {} sends no heartbeat, so its state is unknown (1017h switches it on)", node));
+    return command.state == 0 ? no_answer : ok;
+  }
+  print_message(fmt::format("node {} is {}, not {}", node, state_text(last), state_text(command.state)));
+  return refused;
+}
+
+int run(const Options& options) {
+  const bool is_all = options.node == "all";
+  const std::uint8_t node = is_all ? std::uint8_t{0} : node_of(options.node);
+  if (!is_all && node == 0) {
+    print_message("'" + options.node + "' is no node-ID, which is 1 to 127, or all");
+    return usage;
+  }
+  const Command* chosen = nullptr;
+  for (const Command& command : commands) {
+    chosen = options.command == command.name ? &command : chosen;
+  }
+  int status = ok;
+  std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
+  if (bus == nullptr) {
+    return status;
+  }
+  const bool is_grave = is_all || chosen->state == 0;
+  if (is_grave && bus->is_physical() && !options.is_sure) {
+    if (isatty(STDIN_FILENO) == 0) {
+      print_message("this command changes a physical bus: confirm it by --yes");
+      return usage;
+    }
+    if (!is_confirmed(fmt::format("{} {} on a physical bus?", chosen->name, options.node))) {
+      return usage;
+    }
+  }
+  Session session(std::move(bus), node == 127 ? 1 : 127);
+  const CO_ERR error = CONmtCommand(&session.node().stack().Nmt, chosen->specifier, node);
+  if (error != CO_ERR_NONE) {
+    print_message(std::string("the command was not sent: ") + COErrText(error));
+    return bus_fault;
+  }
+  session.loop().flush(100 * millisecond);
+  status = is_all ? ok : wait_for_state(session, node, *chosen, options);
+  if (options.common.is_json) {
+    const nlohmann::json json = {{"command", chosen->name}, {"node", options.node}, {"done", status == ok}};
+    print(json.dump() + '\n');
+  }
+  return status;
+}
+
+}  // namespace
+
+Verb add_nmt(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  Arguments arguments = line.add_command("nmt", "Change the NMT state of a device, or of all");
+  std::vector<std::string> words;
+  for (const Command& command : commands) {
+    words.emplace_back(command.name);
+  }
+  arguments.add_option("command", options->command, "start, stop, preop, reset or reset-comm").required().one_of(words);
+  arguments.add_option("node", options->node, "Node-ID, 1 to 127, or all").required();
+  add_bus_options(arguments, options->common);
+  add_timeout_option(arguments, options->common, 2000);
+  arguments.add_flag("--yes", options->is_sure, "Do not ask before a reset, or a command to all, on a physical bus");
+  return {arguments, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::program

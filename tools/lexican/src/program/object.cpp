@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include "program/session.hpp"
+#include "text/similar.hpp"
+#include "trace/decode.hpp"
+
+namespace lexican::program {
+namespace {
+
+constexpr std::size_t most_shown = 8;  // names in a message
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+/// Converts hex digits, with 0x before or h behind them.
+template <typename Number>
+bool parse_hex(std::string_view text, Number& number) {
+  if (text.size() > 2 && text[0] == '0' && (text[1] == 'x' || text[1] == 'X')) {
+    text.remove_prefix(2);
+  } else if (text.size() > 1 && (text.back() == 'h' || text.back() == 'H')) {
+    text.remove_suffix(1);
+  }
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, number, 16);
+  return !text.empty() && error == std::errc() && next == end;
+}
+
+bool parse_reference(std::string_view word, ObjectReference& reference) {
+  const std::size_t colon = word.find(':');
+  reference.sub_index = 0;
+  return parse_hex(word.substr(0, colon), reference.index) &&
+         (colon == std::string_view::npos || parse_hex(word.substr(colon + 1), reference.sub_index));
+}
+
+struct Named {
+  ObjectReference object;
+  std::string name;
+};
+
+std::vector<Named> names_of(const describe::Description& description) {
+  std::vector<Named> names;
+  if (description.device() != nullptr) {
+    codict::for_each_variable(*description.device(), [&](std::uint16_t index, std::uint8_t sub, const codict::Entry&) {
+      names.push_back({{index, sub}, description.name_of(index, sub)});
+    });
+    return names;
+  }
+  for (unsigned index = 0x1000; index <= 0x1029; ++index) {
+    const auto name = describe::standard_name(static_cast<std::uint16_t>(index), 0);
+    if (!name.empty()) {
+      names.push_back({{static_cast<std::uint16_t>(index), 0}, std::string(name)});
+    }
+  }
+  for (std::uint8_t sub = 1; sub <= 4; ++sub) {
+    names.push_back({{0x1018, sub}, std::string(describe::standard_name(0x1018, sub))});
+  }
+  return names;
+}
+
+std::string listed(const std::vector<Named>& names, const describe::Description& description) {
+  std::string text;
+  for (std::size_t n = 0; n < std::min(names.size(), most_shown); ++n) {
+    text += "\n  " + description.object(names[n].object.index, names[n].object.sub_index);
+  }
+  return text + (names.size() > most_shown ? fmt::format("\n  and {} more", names.size() - most_shown) : "");
+}
+
+const char* remedy_for(std::uint32_t code) {
+  switch (code) {
+    case CO_SDO_ERR_TIMEOUT: return "is it on this bus, with power, and at this bit rate? lexican scan shows who answers";
+    case CO_SDO_ERR_OBJ:
+    case CO_SDO_ERR_SUB: return "the description may belong to another version of the device; compare 1018h";
+    case CO_SDO_ERR_LEN:
+    case CO_SDO_ERR_LEN_HIGH:
+    case CO_SDO_ERR_LEN_SMALL: return "give the type of the object by --type";
+    case CO_SDO_ERR_RD: return "the object can only be written";
+    case CO_SDO_ERR_WR: return "the object can only be read";
+    case CO_SDO_ERR_RANGE:
+    case CO_SDO_ERR_RANGE_HIGH:
+    case CO_SDO_ERR_RANGE_LOW: return "the limits are in the description or the manual of the device";
+    case CO_SDO_ERR_TOS_STATE:
+    case CO_SDO_ERR_PARA_INCOMP: return "another state may accept it: lexican nmt preop NODE, or switch the device off first";
+    case CO_SDO_ERR_TOS_LOCAL: return nullptr;
+    default: return nullptr;
+  }
+}
+
+}  // namespace
+
+bool find_object(const std::string& word, const describe::Description& description, ObjectReference& found,
+                 std::string& why) {
+  if (parse_reference(word, found)) {
+    return true;
+  }
+  const std::vector<Named> names = names_of(description);
+  const std::string wanted = lower(word);
+  std::vector<Named> matches;
+  for (const Named& candidate : names) {
+    const std::string name = lower(candidate.name);
+    const std::size_t comma = name.find(", ");
+    const std::string last = comma == std::string::npos ? name : name.substr(comma + 2);
+    if (name == wanted || last == wanted) {
+      found = candidate.object;
+      if (name == wanted) {
+        return true;
+      }
+      matches.insert(matches.begin(), candidate);
+    } else if (name.find(wanted) != std::string::npos) {
+      matches.push_back(candidate);
+    }
+  }
+  if (matches.size() == 1) {
+    found = matches.front().object;
+    return true;
+  }
+  if (!matches.empty()) {
+    why = fmt::format("'{}' is the name of several objects; give more of it, or the index:", word) + listed(matches, description);
+    return false;
+  }
+  std::vector<std::string_view> all;
+  for (const Named& candidate : names) {
+    all.emplace_back(candidate.name);
+  }
+  const std::vector<std::string_view> near = codict::similar(word, all);
+  why = fmt::format("no object is called '{}'", word) +
+        (!near.empty()                         ? fmt::format("; did you mean {}?", fmt::join(near, ", "))
+         : description.device() == nullptr ? "; names need a description: --eds FILE. An index is hexadecimal: 6081, 1018:4"
+                                               : "; an index is hexadecimal: 6081, 1018:4");
+  return false;
+}
+
+void add_transfer_options(Arguments& arguments, TransferOptions& options) {
+  arguments.add_option("node", options.node, "Node-ID of the device, 1 to 127").required();
+  arguments.add_option("object", options.object, "Index in hex (6081, 1018:4), name, or a part of the name").required();
+  add_bus_options(arguments, options.common);
+  add_eds_option(arguments, options.common);
+  add_timeout_option(arguments, options.common, 1000);
+  arguments.add_option("--type", options.type,
+                       "Type of the value: " + std::string(value_type_names) + "; default: that of the description");
+}
+
+bool prepare(const TransferOptions& options, Target& target) {
+  target.node = node_of(options.node);
+  if (target.node == 0) {
+    print_message("'" + options.node + "' is no node-ID, which is 1 to 127");
+    return false;
+  }
+  if (!read_descriptions(options.common, target.network)) {
+    return false;
+  }
+  const describe::Description& description = target.network.of(target.node);
+  std::string why;
+  if (!find_object(options.object, description, target.object, why)) {
+    print_message(why);
+    return false;
+  }
+  target.name = description.object(target.object.index, target.object.sub_index);
+  target.type = options.type.empty() ? description.type_of(target.object.index, target.object.sub_index) : value_type(options.type);
+  if (!options.type.empty() && !target.type) {
+    print_message("'" + options.type + "' is no type; types are " + value_type_names);
+    return false;
+  }
+  return true;
+}
+
+int report_failure(Session& session, std::uint8_t node, const std::string& object, const Transfer& transfer) {
+  if (session.is_interrupted()) {
+    print_message("interrupted; the transfer was aborted");
+    return interrupted;
+  }
+  if (!session.bus().fault().empty()) {
+    print_message(session.bus().fault());
+    return bus_fault;
+  }
+  if (transfer.code == CO_SDO_ERR_TIMEOUT) {
+    print_message(fmt::format("node {} does not answer; {}", node, remedy_for(transfer.code)));
+    return no_answer;
+  }
+  const char* const remedy = remedy_for(transfer.code);
+  print_message(fmt::format("node {}, {}: {}", node, object, transfer.outcome()) + (remedy != nullptr ? std::string("; ") + remedy : ""));
+  return transfer.fault.empty() ? refused : bus_fault;
+}
+
+}  // namespace lexican::program

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// lexican read: reads an object of a device.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "program/session.hpp"
+#include "text/file.hpp"
+
+namespace lexican::program {
+namespace {
+
+struct Options : TransferOptions {
+  std::string output;  ///< -o
+  std::uint32_t most = 16 * 1024 * 1024;
+};
+
+std::string type_text(const ValueType& type) {
+  const std::string bits = std::to_string(8 * type.size);
+  switch (type.kind) {
+    case ValueType::Kind::unsigned_integer: return "u" + bits;
+    case ValueType::Kind::integer: return "i" + bits;
+    case ValueType::Kind::real: return "r" + bits;
+    case ValueType::Kind::boolean: return "bool";
+    case ValueType::Kind::text: return "string";
+    default: return "bytes";
+  }
+}
+
+/// Returns the value as text. A value without a type, or of another length than its type, is shown by its bytes.
+std::string shown(const Target& target, const TransferOptions& options, const Bytes& data) {
+  if (options.type.empty()) {
+    return target.network.of(target.node).show(target.object.index, target.object.sub_index, data);
+  }
+  const Shown value = show(*target.type, data);
+  return value.fault.empty() ? value.text : value.fault + ": " + guess(data);
+}
+
+void print_json_value(const Target& target, const TransferOptions& options, const Bytes& data) {
+  std::string hex;
+  for (const std::uint8_t byte : data) {
+    hex += fmt::format("{:02X}", byte);
+  }
+  nlohmann::json json = {{"node", target.node},
+                         {"index", target.object.index},
+                         {"sub", target.object.sub_index},
+                         {"object", target.name},
+                         {"value", shown(target, options, data)},
+                         {"data", hex}};
+  if (target.type) {
+    json["type"] = type_text(*target.type);
+  }
+  print(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+}
+
+int write_output(const std::string& path, const Bytes& data) {
+  std::string why;
+  const std::string_view bytes(reinterpret_cast<const char*>(data.data()), data.size());
+  if (codict::write_file(path, bytes, why) == codict::Written::no) {
+    print_message(why);
+    return usage;
+  }
+  return ok;
+}
+
+int run(const Options& options) {
+  Target target;
+  if (!prepare(options, target)) {
+    return usage;
+  }
+  int status = ok;
+  std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
+  if (bus == nullptr) {
+    return status;
+  }
+  Session session(std::move(bus), target.node);
+  ProgressLine progress(std::cerr, isatty(STDERR_FILENO) != 0 ? Progress::Form::bar : Progress::Form::none);
+  const Transfer transfer =
+      session.sdo().upload(target.object.index, target.object.sub_index,
+                           {options.most, options.common.timeout, [&](const Amount& amount) { progress.update(amount); }});
+  progress.end();
+  if (!transfer.done()) {
+    if (transfer.code == CO_SDO_ERR_MEM) {
+      print_message(fmt::format("{} has more than {} bytes; allow more by --most", target.name, options.most));
+      return refused;
+    }
+    return report_failure(session, target.node, target.name, transfer);
+  }
+  if (!options.output.empty()) {
+    return write_output(options.output, transfer.data);
+  }
+  if (options.common.is_json) {
+    print_json_value(target, options, transfer.data);
+    return ok;
+  }
+  const std::string type = target.type ? " (" + type_text(*target.type) + ")" : "";
+  print(target.name + " = " + shown(target, options, transfer.data) + type + '\n');
+  return ok;
+}
+
+}  // namespace
+
+Verb add_read(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  Arguments arguments = line.add_command("read", "Read an object of a device");
+  add_transfer_options(arguments, *options);
+  arguments.add_option("-o,--output", options->output, "Write the bytes to a file, - for standard output");
+  arguments.add_option("--most", options->most, "Largest size in bytes; default: 16777216").in_hidden_range(1, 1U << 30);
+  return {arguments, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::program

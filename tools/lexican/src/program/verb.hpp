@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file verb.hpp
+/// Declarations that all verbs share. A verb is a file and a row of the table in main.cpp.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/open.hpp"
+#include "cli/arguments.hpp"
+#include "describe/description.hpp"
+#include "host/interruption.hpp"
+
+namespace lexican::program {
+
+using codict::cli::Arguments;
+using codict::cli::CommandLine;
+
+/// Exit status of the program.
+enum Status : int {
+  ok = 0,
+  refused = 1,      ///< the device has refused a request, or differs
+  usage = 2,        ///< wrong use, or a file cannot be used
+  no_answer = 3,    ///< of the device, or nothing on the bus
+  bus_fault = 4,    ///< the bus cannot be opened, or is lost
+  interrupted = 130,
+};
+
+struct Verb {
+  Arguments arguments;
+  std::function<int()> run;
+};
+
+Verb add_mon(CommandLine& line);
+Verb add_nmt(CommandLine& line);
+Verb add_read(CommandLine& line);
+Verb add_scan(CommandLine& line);
+Verb add_write(CommandLine& line);
+
+/// Options that several verbs have. The texts are checked when they are used.
+struct Common {
+  std::string bus;                ///< -i, else $LEXICAN_BUS
+  std::string rate;               ///< --rate: 500k, 1M or 500000
+  std::vector<std::string> eds;   ///< --eds
+  std::uint32_t timeout = 0;      ///< --timeout, ms
+  bool is_json = false;           ///< --json
+};
+
+/// Adds -i, --rate and --json.
+void add_bus_options(Arguments& arguments, Common& common);
+void add_eds_option(Arguments& arguments, Common& common);
+/// Adds --timeout. \a time: the default in ms.
+void add_timeout_option(Arguments& arguments, Common& common, std::uint32_t time);
+
+/// Opens the bus of -i. Prints the reason if that fails, and sets \a status.
+std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only, int& status);
+/// Reads the descriptions of --eds. Prints the reason if that fails.
+bool read_descriptions(const Common& common, describe::Network& network);
+
+/// Converts 500k, 1M or 500000 to bit/s; 0: it is no bit rate.
+std::uint32_t bit_rate_of(std::string_view text);
+
+/// Converts a node-ID, 1 to 127; 0: it is none.
+std::uint8_t node_of(std::string_view text);
+
+/// Prints "lexican: text" on the standard error output, control characters as question marks.
+void print_message(std::string_view text);
+/// Prints on the standard output, control characters but line ends as question marks.
+void print(std::string_view text);
+/// Returns true if the standard output is a terminal on which colours are wanted.
+bool has_colour();
+
+}  // namespace lexican::program

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// lexican write: writes an object of a device.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "program/session.hpp"
+#include "text/file.hpp"
+
+namespace lexican::program {
+namespace {
+
+struct Options : TransferOptions {
+  std::string value;
+  std::string file;
+  bool verifies = false;
+};
+
+/// Returns the limits of an object if the description has them and the value is beyond: the message.
+std::string beyond_limits(const Target& target, const std::string& value) {
+  const codict::Device* const device = target.network.of(target.node).device();
+  const codict::Entry* const entry = device != nullptr ? device->find(target.object.index, target.object.sub_index) : nullptr;
+  const codict::ParsedInteger number = codict::parse_integer(value);
+  if (entry == nullptr || !number.is_meant()) {
+    return {};
+  }
+  const codict::Value& low = *entry->low_limit;
+  const codict::Value& high = *entry->high_limit;
+  const bool is_low = low.is_integer() && number.value < low.integer_for(target.node);
+  const bool is_high = high.is_integer() && high.integer_for(target.node) < number.value;
+  return is_low || is_high ? fmt::format("{} is beyond the limits of the description, {} to {}; --force writes it", value,
+                                         low.is_integer() ? low.written_integer() : "-",
+                                         high.is_integer() ? high.written_integer() : "-")
+                           : std::string();
+}
+
+/// Converts what has to be written.
+/// \retval false  the reason is printed
+bool data_of(const Options& options, const Target& target, bool is_forced, Bytes& data) {
+  std::string why;
+  if (options.value.empty() == options.file.empty()) {
+    print_message("give a value, or --file, and not both");
+    return false;
+  }
+  if (!options.file.empty()) {
+    const std::optional<codict::Source> source = codict::read_file(options.file, why);
+    if (!source) {
+      print_message(why);
+      return false;
+    }
+    const std::string_view bytes = source->bytes();
+    data.assign(bytes.begin(), bytes.end());
+    return true;
+  }
+  if (!target.type) {
+    print_message("the type of " + target.name + " is unknown; give --type (" + value_type_names + ") or --eds");
+    return false;
+  }
+  const Encoded encoded = encode(*target.type, options.value);
+  why = !encoded.fault.empty() ? encoded.fault : is_forced ? std::string() : beyond_limits(target, options.value);
+  if (!why.empty()) {
+    print_message(target.name + ": " + why);
+    return false;
+  }
+  data = encoded.bytes;
+  return true;
+}
+
+int verify(Session& session, const Target& target, const Options& options, const Bytes& data) {
+  const Transfer transfer = session.sdo().upload(target.object.index, target.object.sub_index,
+                                                 {static_cast<std::uint32_t>(data.size() + 1024), options.common.timeout, {}});
+  if (!transfer.done()) {
+    return report_failure(session, target.node, target.name, transfer);
+  }
+  if (transfer.data != data) {
+    print_message(target.name + " was written, but reads back as " +
+                  target.network.of(target.node).show(target.object.index, target.object.sub_index, transfer.data));
+    return refused;
+  }
+  return ok;
+}
+
+int run(const Options& options, bool is_forced) {
+  Target target;
+  Bytes data;
+  if (!prepare(options, target) || !data_of(options, target, is_forced, data)) {
+    return usage;
+  }
+  int status = ok;
+  std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
+  if (bus == nullptr) {
+    return status;
+  }
+  Session session(std::move(bus), target.node);
+  ProgressLine progress(std::cerr, isatty(STDERR_FILENO) != 0 ? Progress::Form::bar : Progress::Form::none);
+  const Transfer transfer = session.sdo().download(
+      target.object.index, target.object.sub_index, data,
+      {SdoClient::small, options.common.timeout, [&](const Amount& amount) { progress.update(amount); }});
+  progress.end();
+  if (!transfer.done()) {
+    return report_failure(session, target.node, target.name, transfer);
+  }
+  status = options.verifies ? verify(session, target, options, data) : ok;
+  if (status == ok && options.common.is_json) {
+    const nlohmann::json json = {{"node", target.node},         {"index", target.object.index},
+                                 {"sub", target.object.sub_index}, {"object", target.name},
+                                 {"bytes", data.size()},        {"verified", options.verifies}};
+    print(json.dump() + '\n');
+  }
+  return status;
+}
+
+}  // namespace
+
+Verb add_write(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  const auto is_forced = std::make_shared<bool>(false);
+  Arguments arguments = line.add_command("write", "Write an object of a device");
+  add_transfer_options(arguments, *options);
+  arguments.add_option("value", options->value, "Value: a number, text, or pairs of hex digits, by its type");
+  arguments.add_option("--file", options->file, "Write the bytes of a file instead, - for standard input");
+  arguments.add_flag("--verify", options->verifies, "Read the object afterwards and compare");
+  arguments.add_flag("--force", *is_forced, "Also beyond the limits of the description");
+  return {arguments, [options, is_forced] { return run(*options, *is_forced); }};
+}
+
+}  // namespace lexican::program
