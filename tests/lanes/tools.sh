@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="codict, the tool for device descriptions${full:+, with its program, and the parts of the bus tool lexican, clang with sanitizers; --all: codict also linked statically}"
+about="codict, the tool for device descriptions${full:+, with its program, and the bus tool lexican, clang with sanitizers; --all: codict also linked statically}"
 minutes=${full:+5}
 : "${minutes:=2}"
 . "$root/tests/fuzz/build.sh"
@@ -33,7 +33,7 @@ undefined=shift,signed-integer-overflow,integer-divide-by-zero,float-cast-overfl
 all_cases() {
   local codict target of=$build/codict/tools/codict targets=(lexican_codict_core_tests lexican_codict_tests
     lexican_codict_program_tests lexican_codict_memory_tests lexican_codict_node_tests lexican_codict_bench codict
-    codict_words lexican_tool_tests "${tool_fuzz_targets[@]/%/_fuzz}")
+    codict_words lexican_tool lexican_words lexican_tool_tests "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
     -DCMAKE_CXX_FLAGS_DEBUG="-O0" -DLEXICAN_SANITIZE=address,$undefined \
     -DLEXICAN_TEST_OPTIONS="-O0;-fno-sanitize=all" -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON || return
@@ -48,7 +48,8 @@ all_cases() {
   for target in "${tool_fuzz_targets[@]}"; do
     check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/inputs/$target.txt"
   done
-  check "installation with the manual page and completion" install_codict
+  check "installation with the manual page and completion" install_program codict
+  check "installation of the bus tool" install_program lexican
   check "docs/pictures shows the output of codict check" same_screen "$of/codict"
   run_tap "$root/tools/codict/tests/page_test.py" "$of/codict" "$root/tools/codict/tests/fixtures"
 }
@@ -58,15 +59,15 @@ same_screen() {  # CODICT
     diff "$results/screen_check.svg" "$root/docs/pictures/screen_check.svg"
 }
 
-install_codict() {
-  local prefix=$build/codict/prefix
+install_program() {  # NAME
+  local prefix=$build/codict/prefix-$1
   rm -rf "$prefix"
-  cmake --install "$build/codict" --component codict --prefix "$prefix" &&
-    "$prefix/bin/codict" --version &&
-    grep '^\.TH CODICT 1' "$prefix/share/man/man1/codict.1" &&
-    grep '^complete .* codict$' "$prefix/share/bash-completion/completions/codict" &&
-    grep '^#compdef codict$' "$prefix/share/zsh/site-functions/_codict" &&
-    grep '^complete -c codict ' "$prefix/share/fish/vendor_completions.d/codict.fish"
+  cmake --install "$build/codict" --component "$1" --prefix "$prefix" &&
+    "$prefix/bin/$1" --version &&
+    grep "^\.TH ${1^^} 1" "$prefix/share/man/man1/$1.1" &&
+    grep "^complete .* $1\$" "$prefix/share/bash-completion/completions/$1" &&
+    grep "^#compdef $1\$" "$prefix/share/zsh/site-functions/_$1" &&
+    grep "^complete -c $1 " "$prefix/share/fish/vendor_completions.d/$1.fish"
 }
 
 # Runs the commands of the pages with descriptions in place of those that a reader has.

@@ -131,6 +131,8 @@ Option Arguments::add_flag(const std::string& names, bool& value, const std::str
   return {*grammar_, *app_->add_flag(names, value, help)};
 }
 
+void Arguments::end_help(const std::string& text) { app_->footer(text); }
+
 Option Arguments::add_choice(const std::string& names, std::vector<std::string> words, const std::string& help,
                              const Choose& choose) {
   const auto set = [words, choose](const std::string& word) { choose(positions(words, {word})); };

@@ -63,6 +63,8 @@ class Arguments {
   Option add_option(const std::string& names, std::uint32_t& value, const std::string& help);
   Option add_option(const std::string& names, std::uint64_t& value, const std::string& help);
   Option add_flag(const std::string& names, bool& value, const std::string& help);
+  /// Sets the text at the end of the help.
+  void end_help(const std::string& text);
 
   /// Option with one of a few words.
   template <typename T>

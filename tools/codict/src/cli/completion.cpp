@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/command.hpp"
+#include "cli/shell.hpp"
 
 namespace lexican::codict::cli {
 
@@ -24,8 +24,7 @@ std::string long_names(const CommandText& command) {
 }
 
 // Completes a command as first word, then options, else files as bash does by default.
-constexpr std::string_view bash_head = R"(# Completion of codict in bash.
-_codict() {
+constexpr std::string_view bash_head = R"(() {
   local word=${COMP_WORDS[COMP_CWORD]} words=
   COMPREPLY=()
   if [ "$COMP_CWORD" -gt 1 ]; then
@@ -37,7 +36,8 @@ _codict() {
 )";
 
 std::string bash_completion(const CommandLine& line) {
-  std::string script(bash_head);
+  const std::string program = line.describe().name;
+  std::string script = fmt::format("# Completion of {0} in bash.\n_{0}{1}", program, bash_head);
   std::string names;
   for (const CommandText& command : line.describe_commands()) {
     script += fmt::format("      {}) words='{}' ;;\n", command.name, long_names(command));
@@ -45,13 +45,13 @@ std::string bash_completion(const CommandLine& line) {
   }
   return script + fmt::format(R"(    esac
   else
-    words='{}{}'
+    words='{0}{1}'
   fi
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
 }}
-complete -o bashdefault -o default -F _codict codict
+complete -o bashdefault -o default -F _{2} {2}
 )",
-                              names, long_names(line.describe()));
+                              names, long_names(line.describe()), program);
 }
 
 // Returns the text with a backslash before each character that marks contains.
@@ -102,11 +102,11 @@ std::string zsh_option(const OptionText& option) {
 }
 
 constexpr std::string_view zsh_tail = R"(  esac
-}
-if [ "$funcstack[1]" = _codict ]; then
-  _codict "$@"
+}}
+if [ "$funcstack[1]" = _{0} ]; then
+  _{0} "$@"
 else
-  compdef _codict codict
+  compdef _{0} {0}
 fi
 )";
 
@@ -121,26 +121,27 @@ std::string zsh_completion(const CommandLine& line) {
     }
     cases += "        '*:file:_files' ;;\n";
   }
-  std::string script =
-      "#compdef codict\n# Completion of codict in zsh.\n_codict() {\n  local -a commands=(\n" + commands;
+  const std::string program = line.describe().name;
+  std::string script = fmt::format("#compdef {0}\n# Completion of {0} in zsh.\n_{0}() {{\n  local -a commands=(\n{1}",
+                                   program, commands);
   script += "  )\n  if (( CURRENT == 2 )); then\n    if [[ $words[2] == -* ]]; then\n      _arguments \\\n";
   for (const OptionText& option : line.describe().options) {
     script += zsh_option(option);
   }
   script += "        && return\n    fi\n    _describe command commands\n    return\n  fi\n";
   script += "  shift words\n  (( CURRENT-- ))\n  case $words[1] in\n" + cases;
-  return script + std::string(zsh_tail);
+  return script + fmt::format(zsh_tail, program);
 }
 
 // Returns 'text', quoted as one word of fish.
 std::string fish_word(std::string_view text) { return "'" + escaped(text, "\\'") + "'"; }
 
 // Returns a command of fish that completes an option where the condition is true; nothing for a positional argument.
-std::string fish_option(const OptionText& option, const std::string& condition) {
+std::string fish_option(const std::string& program, const OptionText& option, const std::string& condition) {
   if (!option.name.empty()) {
     return "";
   }
-  std::string text = fmt::format("complete -c codict -n {}", condition);
+  std::string text = fmt::format("complete -c {} -n {}", program, condition);
   for (const std::string& name : option.short_names) {
     text += " -s " + name;
   }
@@ -156,15 +157,16 @@ std::string fish_option(const OptionText& option, const std::string& condition) 
 }
 
 std::string fish_completion(const CommandLine& line) {
-  std::string script = "# Completion of codict in fish.\n";
+  const std::string program = line.describe().name;
+  std::string script = fmt::format("# Completion of {} in fish.\n", program);
   for (const OptionText& option : line.describe().options) {
-    script += fish_option(option, "__fish_use_subcommand");
+    script += fish_option(program, option, "__fish_use_subcommand");
   }
   for (const CommandText& command : line.describe_commands()) {
-    script += fmt::format("complete -c codict -n __fish_use_subcommand -f -a {} -d {}\n", command.name,
+    script += fmt::format("complete -c {} -n __fish_use_subcommand -f -a {} -d {}\n", program, command.name,
                           fish_word(command.help));
     for (const OptionText& option : command.options) {
-      script += fish_option(option, fmt::format("'__fish_seen_subcommand_from {}'", command.name));
+      script += fish_option(program, option, fmt::format("'__fish_seen_subcommand_from {}'", command.name));
     }
   }
   return script;
@@ -172,16 +174,8 @@ std::string fish_completion(const CommandLine& line) {
 
 }  // namespace
 
-Command add_completion(CommandLine& line) {
-  const auto shell = std::make_shared<std::string>("bash");
-  Arguments command = line.add_command("completion", "Print what a shell needs to complete commands and options");
-  command.add_option("shell", *shell, "bash, zsh or fish; default: bash").one_of({"bash", "zsh", "fish"});
-  return {command, [&line, shell] {
-            print(*shell == "zsh"    ? zsh_completion(line)
-                  : *shell == "fish" ? fish_completion(line)
-                                     : bash_completion(line));
-            return clean;
-          }};
+std::string completion(const CommandLine& line, std::string_view shell) {
+  return shell == "zsh" ? zsh_completion(line) : shell == "fish" ? fish_completion(line) : bash_completion(line);
 }
 
 }  // namespace lexican::codict::cli

@@ -2,11 +2,13 @@
 // Manual page, generated from the commands and options that the program parses.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "cli/command.hpp"
+#include "cli/shell.hpp"
 
 namespace lexican::codict::cli {
 
@@ -36,8 +38,8 @@ std::string roff_of(const OptionText& option) {
   return option.type.empty() ? text : text + " \\fI" + roff(option.type) + "\\fR";
 }
 
-std::string roff_of(const CommandText& command) {
-  std::string text = fmt::format(".SS \"codict {}", roff(command.name));
+std::string roff_of(const CommandText& program, const CommandText& command) {
+  std::string text = fmt::format(".SS \"{} {}", program.name, roff(command.name));
   for (const OptionText& option : command.options) {
     if (!option.name.empty()) {
       text += fmt::format(option.is_required ? " {}" : " [{}]", roff(option.name));
@@ -47,30 +49,28 @@ std::string roff_of(const CommandText& command) {
   for (const OptionText& option : command.options) {
     text += fmt::format(".TP\n{}\n{}.\n", roff_of(option), roff(option.help));
   }
-  return text;
-}
-
-std::string manual(const CommandLine& line) {
-  const CommandText program = line.describe();
-  std::string text = fmt::format(
-      ".TH CODICT 1 \"\" \"codict {}\" Lexican\n.SH NAME\ncodict \\- descriptions of CANopen devices\n"
-      ".SH SYNOPSIS\n.B codict\n.I command\n[\\fIoption\\fR ...] [\\fIfile\\fR ...]\n.SH DESCRIPTION\n{}\n.SH "
-      "COMMANDS\n",
-      roff(LEXICAN_VERSION), roff(program.help));
-  for (const CommandText& command : line.describe_commands()) {
-    text += roff_of(command);
+  if (command.footer != program.footer) {
+    text += fmt::format(".PP\n.nf\n{}\n.fi\n", roff(command.footer));
   }
-  return text + fmt::format(".SH EXIT STATUS\n{}\n", roff(program.footer));
+  return text;
 }
 
 }  // namespace
 
-Command add_man(CommandLine& line) {
-  Arguments command = line.add_command("man", "Print the manual page, for man -l or man1");
-  return {command, [&line] {
-            print(manual(line));
-            return clean;
-          }};
+std::string manual(const CommandLine& line, std::string_view about, std::string_view version) {
+  const CommandText program = line.describe();
+  std::string title = program.name;
+  std::transform(title.begin(), title.end(), title.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::string text = fmt::format(
+      ".TH {0} 1 \"\" \"{1} {2}\" Lexican\n.SH NAME\n{1} \\- {3}\n"
+      ".SH SYNOPSIS\n.B {1}\n.I command\n[\\fIoption\\fR ...] [\\fIargument\\fR ...]\n.SH DESCRIPTION\n{4}\n.SH "
+      "COMMANDS\n",
+      title, program.name, roff(version), about, roff(program.help));
+  for (const CommandText& command : line.describe_commands()) {
+    text += roff_of(program, command);
+  }
+  return text + fmt::format(".SH EXIT STATUS\n{}\n", roff(program.footer));
 }
 
 }  // namespace lexican::codict::cli

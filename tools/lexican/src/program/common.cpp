@@ -33,8 +33,9 @@ void add_bus_options(Arguments& arguments, Common& common) {
 }
 
 void add_eds_option(Arguments& arguments, Common& common) {
-  arguments.add_option("--eds", common.eds,
-                       "Description (EDS, DCF, XDD, XDC) as FILE, NODE=FILE or a directory; several are allowed")
+  arguments
+      .add_option("--eds", common.eds,
+                  "Description (EDS, DCF, XDD, XDC) as FILE, NODE=FILE or a directory; several are allowed")
       .single_values();
 }
 

@@ -74,8 +74,9 @@ class Search {
       Found& found = device(node);
       found.has_type = (frame.Data[0] & 0xE2U) == 0x42U;
       found.device_type = found.has_type ? CO_GET_LONG(&frame, 4) : 0;
-      open_.erase(std::remove_if(open_.begin(), open_.end(), [=](const Request& request) { return request.node == node; }),
-                  open_.end());
+      open_.erase(
+          std::remove_if(open_.begin(), open_.end(), [=](const Request& request) { return request.node == node; }),
+          open_.end());
     }
   }
 

@@ -15,7 +15,8 @@ using namespace lexican::program;
 constexpr const char* about = "Finds, watches, reads and writes CANopen devices on any CAN bus.";
 constexpr const char* footer =
     "A verb may be shortened while it is unique. lexican VERB --help ends with examples.\n"
-    "Exit status: 0 all is well, 1 the device refused or differs, 2 wrong use, 3 no answer, 4 bus fault, 130 interrupted.";
+    "Exit status: 0 all is well, 1 the device refused or differs, 2 wrong use, 3 no answer, 4 bus fault, 130 "
+    "interrupted.";
 
 /// Returns the name of the verb that a word means: itself, or that of which it is the beginning.
 std::string verb_of(const std::string& word, const std::vector<Verb>& verbs) {
@@ -55,7 +56,8 @@ int show_verbs(const CommandLine& line) {
 
 int run(int number, char** arguments) {
   CommandLine line("lexican", about, "lexican " LEXICAN_VERSION, footer);
-  const std::vector<Verb> verbs = {add_scan(line), add_mon(line), add_read(line), add_write(line), add_nmt(line)};
+  const std::vector<Verb> verbs = {add_scan(line), add_mon(line),        add_read(line), add_write(line),
+                                   add_nmt(line),  add_completion(line), add_man(line)};
   if (number < 2) {
     return show_verbs(line);
   }

@@ -270,12 +270,10 @@ class Mon {
     for (const auto& [identifier, count] : numbers.by_identifier) {
       identifiers[identifier_text(identifier)] = count;
     }
-    const nlohmann::json json = {{"frames", numbers.frames},
-                                 {"duration", static_cast<double>(numbers.last - numbers.first) / 1e6},
-                                 {"load", numbers.load(rate)},
-                                 {"errors", numbers.errors},
-                                 {"lost", bus.lost()},
-                                 {"identifiers", identifiers}};
+    const nlohmann::json json = {
+        {"frames", numbers.frames},   {"duration", static_cast<double>(numbers.last - numbers.first) / 1e6},
+        {"load", numbers.load(rate)}, {"errors", numbers.errors},
+        {"lost", bus.lost()},         {"identifiers", identifiers}};
     print(json.dump() + '\n');
   }
 
@@ -314,7 +312,8 @@ int run(Options& options) {
 Verb add_mon(CommandLine& line) {
   const auto options = std::make_shared<Options>();
   Arguments arguments = line.add_command("mon", "Show in words what happens on a bus, or in a log");
-  arguments.add_option("file", options->log, "Log of candump, pcapng, pcap or ASC instead of a bus, - for standard input");
+  arguments.add_option("file", options->log,
+                       "Log of candump, pcapng, pcap or ASC instead of a bus, - for standard input");
   add_bus_options(arguments, options->common);
   add_eds_option(arguments, options->common);
   arguments.add_option("-n,--node", options->nodes, "Only these nodes").single_values();
@@ -326,6 +325,12 @@ Verb add_mon(CommandLine& line) {
   arguments.add_option("--object", options->objects, "Only lines with this index or name").single_values();
   arguments.add_option("--log", options->record, "Record all frames: FILE.pcapng, else in the format of candump");
   arguments.add_flag("--all", options->shows_all, "Also heartbeats without a change, and each SYNC");
+  arguments.end_help(
+      "Examples:\n"
+      "  lexican mon -i can0 --eds 5=drive.eds\n"
+      "  lexican mon -i can0 --service sdo --service emcy --node 5\n"
+      "  lexican mon -i can0 --log fault.pcapng\n"
+      "  lexican mon fault.log --eds descriptions");
   return {arguments, [options] { return run(*options); }};
 }
 

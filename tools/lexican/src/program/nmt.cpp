@@ -18,8 +18,8 @@ struct Command {
 };
 
 constexpr Command commands[] = {
-    {"start", CO_NMT_COMMAND_START, 0x05},        {"stop", CO_NMT_COMMAND_STOP, 0x04},
-    {"preop", CO_NMT_COMMAND_PREOP, 0x7F},        {"reset", CO_NMT_COMMAND_RESET_NODE, 0x00},
+    {"start", CO_NMT_COMMAND_START, 0x05},          {"stop", CO_NMT_COMMAND_STOP, 0x04},
+    {"preop", CO_NMT_COMMAND_PREOP, 0x7F},          {"reset", CO_NMT_COMMAND_RESET_NODE, 0x00},
     {"reset-comm", CO_NMT_COMMAND_RESET_COM, 0x00},
 };
 
@@ -72,7 +72,8 @@ int wait_for_state(Session& session, std::uint8_t node, const Command& command, 
     return bus_fault;
   }
   if (last == 0xFF) {
-    print_message(fmt::format("sent; node {} sends no heartbeat, so its state is unknown (1017h switches it on)", node));
+    print_message(
+        fmt::format("sent; node {} sends no heartbeat, so its state is unknown (1017h switches it on)", node));
     return command.state == 0 ? no_answer : ok;
   }
   print_message(fmt::format("node {} is {}, not {}", node, state_text(last), state_text(command.state)));
@@ -134,6 +135,10 @@ Verb add_nmt(CommandLine& line) {
   add_bus_options(arguments, options->common);
   add_timeout_option(arguments, options->common, 2000);
   arguments.add_flag("--yes", options->is_sure, "Do not ask before a reset, or a command to all, on a physical bus");
+  arguments.end_help(
+      "Examples:\n"
+      "  lexican nmt start 5 -i can0\n"
+      "  lexican nmt reset all --yes -i can0");
   return {arguments, [options] { return run(*options); }};
 }
 

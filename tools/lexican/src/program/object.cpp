@@ -16,7 +16,8 @@ constexpr std::size_t most_shown = 8;  // names in a message
 
 std::string lower(std::string_view text) {
   std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return result;
 }
 
@@ -75,7 +76,8 @@ std::string listed(const std::vector<Named>& names, const describe::Description&
 
 const char* remedy_for(std::uint32_t code) {
   switch (code) {
-    case CO_SDO_ERR_TIMEOUT: return "is it on this bus, with power, and at this bit rate? lexican scan shows who answers";
+    case CO_SDO_ERR_TIMEOUT:
+      return "is it on this bus, with power, and at this bit rate? lexican scan shows who answers";
     case CO_SDO_ERR_OBJ:
     case CO_SDO_ERR_SUB: return "the description may belong to another version of the device; compare 1018h";
     case CO_SDO_ERR_LEN:
@@ -87,7 +89,8 @@ const char* remedy_for(std::uint32_t code) {
     case CO_SDO_ERR_RANGE_HIGH:
     case CO_SDO_ERR_RANGE_LOW: return "the limits are in the description or the manual of the device";
     case CO_SDO_ERR_TOS_STATE:
-    case CO_SDO_ERR_PARA_INCOMP: return "another state may accept it: lexican nmt preop NODE, or switch the device off first";
+    case CO_SDO_ERR_PARA_INCOMP:
+      return "another state may accept it: lexican nmt preop NODE, or switch the device off first";
     case CO_SDO_ERR_TOS_LOCAL: return nullptr;
     default: return nullptr;
   }
@@ -122,7 +125,8 @@ bool find_object(const std::string& word, const describe::Description& descripti
     return true;
   }
   if (!matches.empty()) {
-    why = fmt::format("'{}' is the name of several objects; give more of it, or the index:", word) + listed(matches, description);
+    why = fmt::format("'{}' is the name of several objects; give more of it, or the index:", word) +
+          listed(matches, description);
     return false;
   }
   std::vector<std::string_view> all;
@@ -131,9 +135,10 @@ bool find_object(const std::string& word, const describe::Description& descripti
   }
   const std::vector<std::string_view> near = codict::similar(word, all);
   why = fmt::format("no object is called '{}'", word) +
-        (!near.empty()                         ? fmt::format("; did you mean {}?", fmt::join(near, ", "))
-         : description.device() == nullptr ? "; names need a description: --eds FILE. An index is hexadecimal: 6081, 1018:4"
-                                               : "; an index is hexadecimal: 6081, 1018:4");
+        (!near.empty() ? fmt::format("; did you mean {}?", fmt::join(near, ", "))
+         : description.device() == nullptr
+             ? "; names need a description: --eds FILE. An index is hexadecimal: 6081, 1018:4"
+             : "; an index is hexadecimal: 6081, 1018:4");
   return false;
 }
 
@@ -163,7 +168,8 @@ bool prepare(const TransferOptions& options, Target& target) {
     return false;
   }
   target.name = description.object(target.object.index, target.object.sub_index);
-  target.type = options.type.empty() ? description.type_of(target.object.index, target.object.sub_index) : value_type(options.type);
+  target.type = options.type.empty() ? description.type_of(target.object.index, target.object.sub_index)
+                                     : value_type(options.type);
   if (!options.type.empty() && !target.type) {
     print_message("'" + options.type + "' is no type; types are " + value_type_names);
     return false;
@@ -185,7 +191,8 @@ int report_failure(Session& session, std::uint8_t node, const std::string& objec
     return no_answer;
   }
   const char* const remedy = remedy_for(transfer.code);
-  print_message(fmt::format("node {}, {}: {}", node, object, transfer.outcome()) + (remedy != nullptr ? std::string("; ") + remedy : ""));
+  print_message(fmt::format("node {}, {}: {}", node, object, transfer.outcome()) +
+                (remedy != nullptr ? std::string("; ") + remedy : ""));
   return transfer.fault.empty() ? refused : bus_fault;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -44,12 +45,9 @@ void print_json_value(const Target& target, const TransferOptions& options, cons
   for (const std::uint8_t byte : data) {
     hex += fmt::format("{:02X}", byte);
   }
-  nlohmann::json json = {{"node", target.node},
-                         {"index", target.object.index},
-                         {"sub", target.object.sub_index},
-                         {"object", target.name},
-                         {"value", shown(target, options, data)},
-                         {"data", hex}};
+  nlohmann::json json = {
+      {"node", target.node},   {"index", target.object.index},          {"sub", target.object.sub_index},
+      {"object", target.name}, {"value", shown(target, options, data)}, {"data", hex}};
   if (target.type) {
     json["type"] = type_text(*target.type);
   }
@@ -78,9 +76,15 @@ int run(const Options& options) {
   }
   Session session(std::move(bus), target.node);
   ProgressLine progress(std::cerr, isatty(STDERR_FILENO) != 0 ? Progress::Form::bar : Progress::Form::none);
-  const Transfer transfer =
-      session.sdo().upload(target.object.index, target.object.sub_index,
-                           {options.most, options.common.timeout, [&](const Amount& amount) { progress.update(amount); }});
+  const auto upload = [&](std::uint32_t most) {
+    return session.sdo().upload(target.object.index, target.object.sub_index,
+                                {most, options.common.timeout, [&](const Amount& amount) { progress.update(amount); }});
+  };
+  // A block transfer is for long objects: simple devices know none, and refuse it first.
+  Transfer transfer = upload(std::min(options.most, SdoClient::small));
+  if (transfer.code == CO_SDO_ERR_MEM && options.most > SdoClient::small) {
+    transfer = upload(options.most);
+  }
   progress.end();
   if (!transfer.done()) {
     if (transfer.code == CO_SDO_ERR_MEM) {
@@ -108,7 +112,14 @@ Verb add_read(CommandLine& line) {
   Arguments arguments = line.add_command("read", "Read an object of a device");
   add_transfer_options(arguments, *options);
   arguments.add_option("-o,--output", options->output, "Write the bytes to a file, - for standard output");
-  arguments.add_option("--most", options->most, "Largest size in bytes; default: 16777216").in_hidden_range(1, 1U << 30);
+  arguments.add_option("--most", options->most, "Largest size in bytes; default: 16777216")
+      .in_hidden_range(1, 1U << 30);
+  arguments.end_help(
+      "Examples:\n"
+      "  lexican read 5 1008 -i can0\n"
+      "  lexican read 5 1018:4 -i can0\n"
+      "  lexican read 5 \"velocity actual value\" -i can0 --eds drive.eds\n"
+      "  lexican read 5 1021 -o drive.eds -i can0");
   return {arguments, [options] { return run(*options); }};
 }
 

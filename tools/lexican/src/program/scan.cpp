@@ -93,7 +93,9 @@ std::string state_text(const std::optional<std::uint8_t>& state) {
   }
 }
 
-std::string number_text(const std::optional<std::uint32_t>& number) { return number ? fmt::format("{:08X}", *number) : "-"; }
+std::string number_text(const std::optional<std::uint32_t>& number) {
+  return number ? fmt::format("{:08X}", *number) : "-";
+}
 
 std::optional<std::uint32_t> read_number(SdoClient& sdo, std::uint16_t index, std::uint8_t sub, std::uint32_t timeout) {
   const Transfer transfer = sdo.upload(index, sub, {SdoClient::small, timeout, {}});
@@ -108,7 +110,8 @@ std::optional<std::uint32_t> read_number(SdoClient& sdo, std::uint16_t index, st
 Device identify(const Found& found, host_bus::Bus& bus, const Interruption& interruption, std::uint32_t timeout) {
   BusHost host(bus, interruption);
   ClientDictionary dictionary(found.node);
-  Node node({found.node == 127 ? std::uint8_t{126} : std::uint8_t{127}, host.master_can(), host.master_timer(), dictionary.table()});
+  Node node({found.node == 127 ? std::uint8_t{126} : std::uint8_t{127}, host.master_can(), host.master_timer(),
+             dictionary.table()});
   Loop loop(host, {&node});
   SdoClient sdo(node, loop);
   CONodeStart(&node.stack());
@@ -158,7 +161,8 @@ void print_json_device(const Device& device) {
 int report_silence(const host_bus::Bus& bus, const BusLine& line) {
   if (line.error()) {
     const CO_IF_FRM& error = *line.error();
-    print_message(fmt::format("no node answered; the controller reports errors (TEC {}, REC {})", error.Data[6], error.Data[7]));
+    print_message(
+        fmt::format("no node answered; the controller reports errors (TEC {}, REC {})", error.Data[6], error.Data[7]));
     print_message("nobody acknowledges: compare the bit rate" +
                   (bus.bit_rate() != 0 ? fmt::format(" ({} kbit/s)", bus.bit_rate() / 1000) : std::string()) +
                   ", check 60 ohm between CAN_H and CAN_L, and power");
@@ -216,6 +220,11 @@ Verb add_scan(CommandLine& line) {
   Arguments arguments = line.add_command("scan", "Find the devices of a bus: state, profile, identity and name");
   add_bus_options(arguments, options->common);
   add_timeout_option(arguments, options->common, 80);
+  arguments.end_help(
+      "Examples:\n"
+      "  lexican scan -i can0\n"
+      "  lexican scan -i slcan:/dev/ttyACM0@500k\n"
+      "  lexican scan -i hub:demo --json");
   return {arguments, [options] { return run(*options); }};
 }
 

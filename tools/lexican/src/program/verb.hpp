@@ -22,10 +22,10 @@ using codict::cli::CommandLine;
 /// Exit status of the program.
 enum Status : int {
   ok = 0,
-  refused = 1,      ///< the device has refused a request, or differs
-  usage = 2,        ///< wrong use, or a file cannot be used
-  no_answer = 3,    ///< of the device, or nothing on the bus
-  bus_fault = 4,    ///< the bus cannot be opened, or is lost
+  refused = 1,    ///< the device has refused a request, or differs
+  usage = 2,      ///< wrong use, or a file cannot be used
+  no_answer = 3,  ///< of the device, or nothing on the bus
+  bus_fault = 4,  ///< the bus cannot be opened, or is lost
   interrupted = 130,
 };
 
@@ -34,6 +34,8 @@ struct Verb {
   std::function<int()> run;
 };
 
+Verb add_completion(CommandLine& line);
+Verb add_man(CommandLine& line);
 Verb add_mon(CommandLine& line);
 Verb add_nmt(CommandLine& line);
 Verb add_read(CommandLine& line);
@@ -42,11 +44,11 @@ Verb add_write(CommandLine& line);
 
 /// Options that several verbs have. The texts are checked when they are used.
 struct Common {
-  std::string bus;                ///< -i, else $LEXICAN_BUS
-  std::string rate;               ///< --rate: 500k, 1M or 500000
-  std::vector<std::string> eds;   ///< --eds
-  std::uint32_t timeout = 0;      ///< --timeout, ms
-  bool is_json = false;           ///< --json
+  std::string bus;               ///< -i, else $LEXICAN_BUS
+  std::string rate;              ///< --rate: 500k, 1M or 500000
+  std::vector<std::string> eds;  ///< --eds
+  std::uint32_t timeout = 0;     ///< --timeout, ms
+  bool is_json = false;          ///< --json
 };
 
 /// Adds -i, --rate and --json.

@@ -21,7 +21,8 @@ struct Options : TransferOptions {
 /// Returns the limits of an object if the description has them and the value is beyond: the message.
 std::string beyond_limits(const Target& target, const std::string& value) {
   const codict::Device* const device = target.network.of(target.node).device();
-  const codict::Entry* const entry = device != nullptr ? device->find(target.object.index, target.object.sub_index) : nullptr;
+  const codict::Entry* const entry =
+      device != nullptr ? device->find(target.object.index, target.object.sub_index) : nullptr;
   const codict::ParsedInteger number = codict::parse_integer(value);
   if (entry == nullptr || !number.is_meant()) {
     return {};
@@ -30,8 +31,8 @@ std::string beyond_limits(const Target& target, const std::string& value) {
   const codict::Value& high = *entry->high_limit;
   const bool is_low = low.is_integer() && number.value < low.integer_for(target.node);
   const bool is_high = high.is_integer() && high.integer_for(target.node) < number.value;
-  return is_low || is_high ? fmt::format("{} is beyond the limits of the description, {} to {}; --force writes it", value,
-                                         low.is_integer() ? low.written_integer() : "-",
+  return is_low || is_high ? fmt::format("{} is beyond the limits of the description, {} to {}; --force writes it",
+                                         value, low.is_integer() ? low.written_integer() : "-",
                                          high.is_integer() ? high.written_integer() : "-")
                            : std::string();
 }
@@ -69,8 +70,9 @@ bool data_of(const Options& options, const Target& target, bool is_forced, Bytes
 }
 
 int verify(Session& session, const Target& target, const Options& options, const Bytes& data) {
-  const Transfer transfer = session.sdo().upload(target.object.index, target.object.sub_index,
-                                                 {static_cast<std::uint32_t>(data.size() + 1024), options.common.timeout, {}});
+  const Transfer transfer =
+      session.sdo().upload(target.object.index, target.object.sub_index,
+                           {static_cast<std::uint32_t>(data.size() + 1024), options.common.timeout, {}});
   if (!transfer.done()) {
     return report_failure(session, target.node, target.name, transfer);
   }
@@ -104,9 +106,9 @@ int run(const Options& options, bool is_forced) {
   }
   status = options.verifies ? verify(session, target, options, data) : ok;
   if (status == ok && options.common.is_json) {
-    const nlohmann::json json = {{"node", target.node},         {"index", target.object.index},
-                                 {"sub", target.object.sub_index}, {"object", target.name},
-                                 {"bytes", data.size()},        {"verified", options.verifies}};
+    const nlohmann::json json = {
+        {"node", target.node},   {"index", target.object.index}, {"sub", target.object.sub_index},
+        {"object", target.name}, {"bytes", data.size()},         {"verified", options.verifies}};
     print(json.dump() + '\n');
   }
   return status;
@@ -123,6 +125,11 @@ Verb add_write(CommandLine& line) {
   arguments.add_option("--file", options->file, "Write the bytes of a file instead, - for standard input");
   arguments.add_flag("--verify", options->verifies, "Read the object afterwards and compare");
   arguments.add_flag("--force", *is_forced, "Also beyond the limits of the description");
+  arguments.end_help(
+      "Examples:\n"
+      "  lexican write 5 1017 500 --type u16 -i can0\n"
+      "  lexican write 5 \"profile velocity\" 2000 --verify -i can0 --eds drive.eds\n"
+      "  lexican write 5 1F50:1 --file firmware.bin -i can0");
   return {arguments, [options, is_forced] { return run(*options, *is_forced); }};
 }
 
