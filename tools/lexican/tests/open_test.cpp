@@ -3,8 +3,9 @@
 #include "bus/open.hpp"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
+#include <stdlib.h>
 
+#include <filesystem>
 #include <string>
 
 namespace {
@@ -12,7 +13,9 @@ namespace {
 using namespace lexican::host_bus;
 
 TEST_CASE("open_bus: a name selects the kind of bus, and listening does not send") {
-  const std::string name = "hub:open-" + std::to_string(getpid());
+  char directory[] = "/tmp/lexican-test-XXXXXX";
+  setenv("XDG_RUNTIME_DIR", mkdtemp(directory), 1);
+  const std::string name = "hub:open";
   std::string why;
   const std::unique_ptr<Bus> sender = open_bus(name, {}, why);
   const std::unique_ptr<Bus> listener = open_bus(name, {0, true}, why);
@@ -27,6 +30,8 @@ TEST_CASE("open_bus: a name selects the kind of bus, and listening does not send
   REQUIRE(entry);
   CHECK(entry->frame.Identifier == 0x321);
   CHECK(!sender->receive());
+  unsetenv("XDG_RUNTIME_DIR");
+  std::filesystem::remove_all(directory);
 }
 
 TEST_CASE("open_bus: a bus that cannot be opened is named with the reason") {

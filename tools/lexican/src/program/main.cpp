@@ -56,8 +56,8 @@ int show_verbs(const CommandLine& line) {
 
 int run(int number, char** arguments) {
   CommandLine line("lexican", about, "lexican " LEXICAN_VERSION, footer);
-  const std::vector<Verb> verbs = {add_scan(line), add_mon(line),        add_read(line), add_write(line),
-                                   add_nmt(line),  add_completion(line), add_man(line)};
+  const std::vector<Verb> verbs = {add_scan(line), add_mon(line),   add_read(line),       add_write(line),
+                                   add_nmt(line),  add_share(line), add_completion(line), add_man(line)};
   if (number < 2) {
     return show_verbs(line);
   }

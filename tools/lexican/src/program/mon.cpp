@@ -23,6 +23,7 @@ using host_bus::Entry;
 using host_bus::Micros;
 
 constexpr Micros reopen_interval = 500'000;
+constexpr std::size_t most_identifiers = 20;  // in the statistics
 
 struct Options {
   Common common;
@@ -259,9 +260,18 @@ class Mon {
       print(fmt::format("{} lines are malformed, {} frames are CAN FD or XL\n", bus.log()->malformed(),
                         bus.log()->other_frames()));
     }
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> most;
     for (const auto& [identifier, count] : numbers.by_identifier) {
-      print(fmt::format("{:>11} {:>9}", identifier_text(identifier), count) +
-            (duration > 0 ? fmt::format(" {:>9.1f}/s\n", static_cast<double>(count) / duration) : std::string("\n")));
+      most.emplace_back(count, identifier);
+    }
+    std::stable_sort(most.begin(), most.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (std::size_t n = 0; n < std::min(most.size(), most_identifiers); ++n) {
+      print(fmt::format("{:>11} {:>9}", identifier_text(most[n].second), most[n].first) +
+            (duration > 0 ? fmt::format(" {:>9.1f}/s\n", static_cast<double>(most[n].first) / duration)
+                          : std::string("\n")));
+    }
+    if (most.size() > most_identifiers) {
+      print(fmt::format("{:>11}\n", fmt::format("and {} more", most.size() - most_identifiers)));
     }
   }
 

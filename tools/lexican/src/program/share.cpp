@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// lexican share: hands one adapter to many programs.
+#include <fmt/format.h>
+#include <poll.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bus/hub.hpp"
+#include "bus/socketcand.hpp"
+#include "program/verb.hpp"
+
+namespace lexican::program {
+namespace {
+
+using host_bus::Bus;
+using host_bus::Entry;
+using host_bus::Micros;
+
+constexpr Micros reopen_interval = 500'000;
+constexpr unsigned frames_in_turn = 64;
+
+struct Options {
+  Common common;
+  std::string name;
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 29536;
+  bool has_pty = false;
+};
+
+Micros clock_now(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<Micros>(now.tv_sec) * 1'000'000 + static_cast<Micros>(now.tv_nsec) / 1000;
+}
+
+/// Returns the name of the hub for a bus: ttyACM0 of slcan:/dev/ttyACM0@500k.
+std::string hub_name_of(const std::string& bus) {
+  std::string name = bus.substr(0, bus.find('@'));
+  name = name.substr(name.find_last_of(":/") + 1);
+  name.erase(std::remove_if(name.begin(), name.end(),
+                            [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; }),
+             name.end());
+  return name;
+}
+
+/// The adapter, and the ways to it. A frame of one of them goes to all others.
+class Share {
+ public:
+  explicit Share(std::unique_ptr<Bus> adapter)
+      : adapter_(std::move(adapter)),
+        hub_(adapter_->is_physical() ? fmt::format("physical {}", adapter_->bit_rate()) : "simulated") {}
+  ~Share() {
+    if (!hub_.path().empty()) {
+      unlink(hub_.path().c_str());
+    }
+  }
+  Share(const Share&) = delete;
+  Share& operator=(const Share&) = delete;
+
+  /// \retval false  \a why says why
+  bool open(const Options& options, const std::string& name, std::string& why) {
+    const std::string path = host_bus::hub_path(name, why);
+    if (path.empty()) {
+      return false;
+    }
+    std::string none;
+    if (host_bus::connect_to_hub(path, none) != nullptr) {
+      why = "hub:" + name + " is in use; choose another name by --name";
+      return false;
+    }
+    unlink(path.c_str());
+    if (!hub_.open(path, why)) {
+      return false;
+    }
+    buses_.push_back(host_bus::connect_to_hub(path, why));
+    if (options.has_pty) {
+      buses_.push_back(host_bus::open_bus("slcan-pty", {}, why));
+    }
+    return std::all_of(buses_.begin(), buses_.end(), [](const auto& bus) { return bus != nullptr; }) &&
+           (options.port == 0 || socketcand_.open(options.address, options.port, why));
+  }
+
+  void print_ways(const Options& options, const std::string& name) const {
+    std::string text = "hub:" + name;
+    text += options.port == 0
+                ? ""
+                : fmt::format(", socketcand {}:{}/can0 (python-can, SavvyCAN)", options.address, socketcand_.port());
+    for (const auto& bus : buses_) {
+      text += bus->note().empty() ? "" : ", " + bus->note();
+    }
+    print(text + "; Ctrl-C ends it\n");
+    std::fflush(stdout);
+  }
+
+  void run(const Interruption& interruption) {
+    while (!Interruption::happened()) {
+      wait(interruption);
+      hub_.process(clock_now(CLOCK_REALTIME));
+      socketcand_.process(clock_now(CLOCK_REALTIME));
+      reopen();
+      forward();
+    }
+  }
+
+  std::uint64_t lost() const { return lost_ + adapter_->lost(); }
+
+ private:
+  void wait(const Interruption& interruption) {
+    std::vector<pollfd> wanted = hub_.wanted();
+    const std::vector<pollfd> clients = socketcand_.wanted();
+    wanted.insert(wanted.end(), clients.begin(), clients.end());
+    wanted.push_back(adapter_->wanted());
+    for (const auto& bus : buses_) {
+      wanted.push_back(bus->wanted());
+    }
+    const timespec timeout{0, is_busy_ ? 1'000'000L : 200'000'000L};
+    ppoll(wanted.data(), wanted.size(), &timeout, &interruption.while_waiting());
+  }
+
+  void reopen() {
+    if (adapter_->wanted().fd >= 0) {
+      return;
+    }
+    if (!is_lost_) {
+      print_message(adapter_->fault() + "; waiting for it");
+      is_lost_ = true;
+    }
+    const Micros now = clock_now(CLOCK_MONOTONIC);
+    if (now - reopened_ >= reopen_interval) {
+      reopened_ = now;
+      if (adapter_->restore()) {
+        print_message("the adapter is back");
+        is_lost_ = false;
+      }
+    }
+  }
+
+  /// Frames for an adapter that takes no more wait here; meanwhile the programs are not read, so that they wait, too.
+  void forward() {
+    for (unsigned n = 0; n < frames_in_turn; ++n) {
+      const std::optional<Entry> entry = adapter_->receive();
+      if (!entry) {
+        break;
+      }
+      to_programs(entry->frame, nullptr);
+      if ((entry->frame.Identifier & CO_IF_FRM_ERROR) == 0) {
+        socketcand_.send(*entry);
+      }
+    }
+    for (const auto& bus : buses_) {
+      for (unsigned n = 0; n < frames_in_turn && flush(); ++n) {
+        const std::optional<Entry> entry = bus->receive();
+        if (!entry) {
+          break;
+        }
+        waiting_ = entry->frame;
+        to_programs(entry->frame, bus.get());
+        socketcand_.send(*entry);
+      }
+    }
+    for (unsigned n = 0; n < frames_in_turn && flush(); ++n) {
+      waiting_ = socketcand_.receive();
+      if (!waiting_) {
+        break;
+      }
+      to_programs(*waiting_, nullptr);
+    }
+    is_busy_ = !flush();
+  }
+
+  /// \retval true  no frame waits for the adapter
+  bool flush() {
+    if (waiting_ && adapter_->wanted().fd < 0) {
+      ++lost_;
+      waiting_.reset();
+    }
+    if (waiting_ && adapter_->send(*waiting_)) {
+      waiting_.reset();
+    }
+    return !waiting_;
+  }
+
+  void to_programs(const CO_IF_FRM& frame, const Bus* from) {
+    for (const auto& bus : buses_) {
+      if (bus.get() != from && !bus->send(frame)) {
+        ++lost_;
+      }
+    }
+  }
+
+  std::unique_ptr<Bus> adapter_;
+  host_bus::HubServer hub_;
+  host_bus::SocketcandServer socketcand_{"can0"};
+  std::vector<std::unique_ptr<Bus>> buses_;  ///< the hub, and the pseudo-terminal
+  std::optional<CO_IF_FRM> waiting_;         ///< frame that the adapter has refused
+  bool is_busy_ = false;
+  bool is_lost_ = false;
+  Micros reopened_ = 0;
+  std::uint64_t lost_ = 0;
+};
+
+int run(const Options& options) {
+  int status = ok;
+  std::unique_ptr<Bus> adapter = open_bus(options.common, false, status);
+  if (adapter == nullptr) {
+    return status;
+  }
+  const Interruption interruption;
+  const char* const usual = std::getenv("LEXICAN_BUS");
+  const std::string bus = !options.common.bus.empty() ? options.common.bus : usual != nullptr ? usual : "";
+  const std::string name = options.name.empty() ? hub_name_of(bus) : options.name;
+  Share share(std::move(adapter));
+  std::string why;
+  if (!share.open(options, name, why)) {
+    print_message(why);
+    return usage;
+  }
+  share.print_ways(options, name);
+  share.run(interruption);
+  if (share.lost() != 0) {
+    print_message(fmt::format("{} frames were lost", share.lost()));
+  }
+  return ok;
+}
+
+}  // namespace
+
+Verb add_share(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  Arguments arguments = line.add_command("share", "Hand one adapter to many programs");
+  add_bus_options(arguments, options->common);
+  arguments.add_option("--name", options->name, "Name of the hub; default: that of the adapter");
+  arguments.add_option("--port", options->port, "TCP port of the socketcand server, 0: none; default: 29536");
+  arguments.add_option("--address", options->address, "Address of the socketcand server; default: 127.0.0.1");
+  arguments.add_flag("--pty", options->has_pty, "Also a pseudo-terminal, as an slcan adapter for one program");
+  arguments.end_help(
+      "Examples:\n"
+      "  lexican share -i slcan:/dev/ttyACM0@500k\n"
+      "  lexican share -i can0 --name bench --port 0 --pty");
+  return {arguments, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::program
