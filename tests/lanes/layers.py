@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The include rules: include < wire < hal < base < dictionary < storage < service < extra < node; drivers include only include/.
 The modules of tools/codict/src: text < model < eds, xdd < check, gen and so on < network < catalogue < cli; none includes one of
-its own level.
+its own level. Those of tools/lexican/src: trace, bus < host < client < describe < program; the last two include codict's.
 
 layers.py ROOT         checks a source tree, one case for each module
 layers.py --self-test  checks that a violation of each rule is found in a small tree
@@ -19,6 +19,7 @@ EXTENDS = {"mpdo": "pdo"}
 # Public headers of src/extra.
 OF_EXTRAS = {"co_od.h", "co_od_2020.h", "co_os.h", "co_recorder.h"}
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
+TOOL_LEVELS = [{"trace", "bus"}, {"host"}, {"client"}, {"describe"}, {"program"}]
 # Headers of the stack that codict includes: they need no configuration.
 CODICT_STACK = {"lexican/detail/objects.h", "lexican/srdo.hpp"}
 # Headers of the standard library that need neither an operating system nor allocation.
@@ -49,6 +50,8 @@ class Tree:
         yield "drivers", self.in_drivers
         for module in sorted(p.name for p in (self.root / "tools/codict/src").iterdir() if p.is_dir()):
             yield f"tools/codict/src/{module}", self.in_codict
+        for module in sorted(p.name for p in (self.root / "tools/lexican/src").iterdir() if p.is_dir()):
+            yield f"tools/lexican/src/{module}", self.in_tool
 
     def faults(self, directory, rule):
         """Returns the violations below a directory; None if it contains no sources."""
@@ -94,11 +97,22 @@ class Tree:
     def in_codict(self, file, name, system):
         if system or name in CODICT_STACK:
             return None
-        here = file.relative_to(self.root / "tools/codict/src").parts[0]
+        return self.above(CODICT_LEVELS, file.relative_to(self.root / "tools/codict/src").parts[0], name)
+
+    def in_tool(self, file, name, system):
+        here = file.relative_to(self.root / "tools/lexican/src").parts[0]
+        if system or len(Path(name).parts) == 1 or self.is_public(name):  # of the stack, or of a driver
+            return None
+        if here in ("describe", "program") and (self.root / "tools/codict/src" / name).is_file():
+            return None
+        return self.above(TOOL_LEVELS, here, name)
+
+    @staticmethod
+    def above(table, here, name):
         there = Path(name).parts[0]
         if here == there:
             return None
-        levels = [[n for n, modules in enumerate(CODICT_LEVELS) if module in modules] for module in (there, here)]
+        levels = [[n for n, modules in enumerate(table) if module in modules] for module in (there, here)]
         if not all(levels):
             return "not a module of the table"
         return None if levels[0] < levels[1] else f"{there} is not below {here}"
@@ -156,6 +170,8 @@ CLEAN = {
     "tools/codict/src/text/edit.hpp": "#include <string>\n",
     "tools/codict/src/eds/read.cpp": '#include "eds/read.hpp"\n#include "text/edit.hpp"\n',
     "tools/codict/src/xdd/read.hpp": "",
+    "tools/lexican/src/bus/hub.cpp": '#include "bus/hub.hpp"\n#include "co_a.h"\n',
+    "tools/lexican/src/describe/names.cpp": '#include "bus/log.hpp"\n#include "xdd/read.hpp"\n',
 }
 
 PLANTED = {
@@ -177,6 +193,8 @@ PLANTED = {
     "a directory of codict includes one above": ("tools/codict/src/text/edit.hpp", '#include "eds/read.hpp"'),
     "a directory of codict includes one beside": ("tools/codict/src/eds/read.cpp", '#include "xdd/read.hpp"'),
     "a directory of codict includes a header of the stack": ("tools/codict/src/eds/read.cpp", '#include "co_core.h"'),
+    "a bus of the tool includes the program": ("tools/lexican/src/bus/hub.cpp", '#include "program/verb.hpp"'),
+    "a bus of the tool includes codict": ("tools/lexican/src/bus/hub.cpp", '#include "xdd/read.hpp"'),
     "a driver includes another kind of driver": ("drivers/nvm/file.cpp", '#include "../can/socket.h"'),
 }
 
