@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """assemble.py ROOT PAGES REFERENCE
 
-Copies the pages of the site to the directory PAGES, which must not exist: docs/, the pages of codict, the list of
-rules, the pages for contributors, and the API reference that reference.sh has made in REFERENCE. Adds a page with the
-sources of each example program of demo/ that a page names. Links between pages are adapted; a link to a header leads to
-its page of the API reference, a link to another file of the repository becomes its path. Pictures are drawn from
-docs/pictures/*.dot by Graphviz. Rows of the first page that name a row of docs/sizes.md or docs/speed.md get its
+Copies the pages of the site to the directory PAGES, which must not exist: docs/, the pages of codict and lexican, the
+list of rules, the pages for contributors, and the API reference that reference.sh has made in REFERENCE. Adds a page
+with the sources of each example program of demo/ that a page names. Links between pages are adapted; a link to a header
+leads to its page of the API reference, a link to another file of the repository becomes its path. Pictures are drawn
+from docs/pictures/*.dot by Graphviz. Rows of the first page that name a row of docs/sizes.md or docs/speed.md get its
 numbers.
 """
 import os.path
@@ -36,6 +36,8 @@ def pages_of(root):
     for name in ("codict", "rules", "network"):
         if (root / f"tools/codict/docs/{name}.md").exists():
             pages[Path(f"tools/codict/docs/{name}.md")] = Path(f"{name}.md")
+    for path in sorted((root / "tools/lexican/docs").glob("*.md")):
+        pages[path.relative_to(root)] = Path(path.name) if path.stem == "lexican" else Path("lexican") / path.name
     pages[Path("tests/stack/conformance/RULES.md")] = Path("conformance.md")
     pages[Path("CONTRIBUTING.md")] = Path("contributing.md")
     pages[Path("tests/README.md")] = Path("tests.md")
