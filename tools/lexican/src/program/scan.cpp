@@ -157,7 +157,7 @@ void print_json_device(const Device& device) {
   print(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
 
-/// Says why nobody has answered, by what the controller reports.
+/// Prints why no device has answered, by the report of the controller.
 int report_silence(const host_bus::Bus& bus, const BusLine& line) {
   if (line.error()) {
     const CO_IF_FRM& error = *line.error();
