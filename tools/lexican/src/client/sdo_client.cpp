@@ -91,6 +91,7 @@ Transfer SdoClient::upload(std::uint16_t index, std::uint8_t sub, const Options&
 
 Transfer SdoClient::download(std::uint16_t index, std::uint8_t sub, Bytes data, const Options& options) {
   CO_CSDO* const client = COCSdoFind(&node_.stack(), 0);
+  data.reserve(1);  // no bytes have an address, too
   begin();
   const CO_ERR error = COCSdoRequestDownload(client, CO_DEV(index, sub), data.data(),
                                              static_cast<std::uint32_t>(data.size()), note_end, options.timeout);

@@ -59,7 +59,7 @@ class SdoClient {
   /// Transfers an object. An interruption of the program cancels it, with the abort code CO_SDO_ERR_TOS_LOCAL.
   Transfer upload(std::uint16_t index, std::uint8_t sub, const Options& options);
   Transfer upload(std::uint16_t index, std::uint8_t sub) { return upload(index, sub, usual_); }
-  /// \a data must not be empty.
+  /// No bytes empty a string or a domain.
   Transfer download(std::uint16_t index, std::uint8_t sub, Bytes data, const Options& options);
   Transfer download(std::uint16_t index, std::uint8_t sub, Bytes data) {
     return download(index, sub, std::move(data), usual_);

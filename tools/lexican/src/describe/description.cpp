@@ -77,10 +77,10 @@ std::string shown_bytes(const Bytes& bytes) {
   return hex_bytes(bytes.data(), shown) + (shown < bytes.size() ? " ..." : "");
 }
 
-/// Returns a value whose type is unknown.
-std::string guessed(const Bytes& bytes) {
-  const std::string text = bytes.size() > 4 ? visible_text(bytes) : std::string();
-  if (!text.empty()) {
+/// Returns a value whose type is unknown, or a text.
+std::string guessed(const Bytes& bytes, bool is_text) {
+  const std::string text = is_text || bytes.size() > 4 ? visible_text(bytes) : std::string();
+  if (!text.empty() || (is_text && bytes.empty())) {
     return '"' + text.substr(0, most_shown) + (text.size() > most_shown ? "\" ..." : "\"");
   }
   std::uint64_t number = 0;
@@ -161,8 +161,9 @@ std::optional<ValueType> Description::type_of(std::uint16_t index, std::uint8_t 
 std::string Description::show(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) const {
   const std::optional<ValueType> type = type_of(index, sub_index);
   const Shown shown = type && !bytes.empty() ? lexican::show(*type, bytes) : Shown{{}, "unknown"};
-  if (!shown.fault.empty() || type->kind == ValueType::Kind::text) {
-    return guessed(bytes);
+  const bool is_text = type && type->kind == ValueType::Kind::text;
+  if (!shown.fault.empty() || is_text) {
+    return guessed(bytes, is_text);
   }
   if (type->kind == ValueType::Kind::bytes) {
     return shown_bytes(bytes);

@@ -31,8 +31,8 @@ std::int16_t BusHost::read(CO_IF_FRM& frame) {
 std::int16_t BusHost::send(const CO_IF_FRM& frame) {
   constexpr std::uint32_t error_control = 0x700;
   const bool is_own_state = (frame.Identifier & ~std::uint32_t{0x7F}) == error_control;
-  if (is_own_state) {
-    return sizeof frame;  // the tool is no device: it announces no boot-up
+  if (is_own_state && role_ == Role::client) {
+    return sizeof frame;
   }
   const bool is_sent = bus_.send(frame);
   return is_sent ? static_cast<std::int16_t>(sizeof frame) : bus_lost() ? std::int16_t{-1} : std::int16_t{0};

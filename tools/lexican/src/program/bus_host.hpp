@@ -12,8 +12,12 @@ namespace lexican::program {
 
 class BusHost : public Host {
  public:
-  /// Both must outlive the host.
-  BusHost(host_bus::Bus& bus, const Interruption& interruption) : bus_(bus), interruption_(interruption) {}
+  /// A client announces no boot-up and no state; a device does.
+  enum class Role { client, device };
+
+  /// The bus and the interruption must outlive the host.
+  BusHost(host_bus::Bus& bus, const Interruption& interruption, Role role = Role::client)
+      : bus_(bus), interruption_(interruption), role_(role) {}
 
   Can device_can() override { return {&driver, this}; }
   Can master_can() override { return {&driver, this}; }
@@ -34,6 +38,7 @@ class BusHost : public Host {
 
   host_bus::Bus& bus_;
   const Interruption& interruption_;
+  Role role_;
   co::LinuxTimer timer_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 std::string printable(std::string_view text) {
   std::string result(text);
   for (char& c : result) {
-    const bool is_control = (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\033') || c == 0x7F;
+    const bool is_control = (static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7F;
     c = is_control ? '?' : c;
   }
   return result;
@@ -105,6 +105,8 @@ void print(std::string_view text) {
   const std::string shown = printable(text);
   std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
+
+void print_red(std::string_view line) { fmt::print("\033[31m{}\033[0m\n", printable(line)); }
 
 bool has_colour() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
 

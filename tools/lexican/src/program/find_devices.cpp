@@ -8,6 +8,9 @@ namespace {
 
 constexpr std::size_t most_in_flight = 8;
 constexpr std::uint8_t last_node = 127;
+constexpr Micros longest_refusal = 500 * millisecond;
+constexpr unsigned upload_response = 2;
+constexpr unsigned abort = 4;
 constexpr std::uint32_t request_id = 0x600;
 constexpr std::uint32_t response_id = 0x580;
 constexpr std::uint32_t state_id = 0x700;
@@ -24,8 +27,14 @@ class Search {
   Search(Line& line, Micros answer_time) : line_(line), answer_time_(answer_time) {}
 
   std::vector<Found> run() {
+    accepted_ = line_.now();
     while ((next_ <= last_node || !open_.empty()) && !line_.is_ended()) {
       send();
+      if (!open_.empty()) {
+        accepted_ = line_.now();
+      } else if (line_.now() - accepted_ >= longest_refusal) {
+        break;
+      }
       line_.wait(wait_time());
       while (const std::optional<CO_IF_FRM> frame = line_.receive()) {
         process(*frame);
@@ -52,7 +61,8 @@ class Search {
   }
 
   Micros wait_time() {
-    if (open_.empty()) {
+    const bool is_refused = next_ <= last_node && open_.size() < most_in_flight;
+    if (is_refused) {
       return millisecond;
     }
     const Micros due = open_.front().sent + answer_time_;
@@ -69,7 +79,9 @@ class Search {
     if (id == state_id && frame.DLC == 1) {
       device(node).state = static_cast<std::uint8_t>(frame.Data[0] & 0x7FU);
     }
-    const bool is_answer = frame.Data[1] == 0x00 && frame.Data[2] == 0x10 && frame.Data[3] == 0x00;
+    const unsigned specifier = frame.Data[0] >> 5;
+    const bool is_answer = (specifier == upload_response || specifier == abort) && frame.Data[1] == 0x00 &&
+                           frame.Data[2] == 0x10 && frame.Data[3] == 0x00;
     if (id == response_id && frame.DLC == 8 && is_answer) {
       Found& found = device(node);
       found.has_type = (frame.Data[0] & 0xE2U) == 0x42U;
@@ -92,6 +104,7 @@ class Search {
   Line& line_;
   Micros answer_time_;
   std::uint8_t next_ = 1;
+  Micros accepted_ = 0;  ///< last time with a request that the line had accepted and that has not ended
   std::vector<Request> open_;
   std::array<std::optional<Found>, 128> devices_{};
 };

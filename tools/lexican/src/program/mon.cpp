@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "describe/monitor.hpp"
 #include "program/verb.hpp"
@@ -72,13 +74,11 @@ class Printer {
 
   void print_text(const Event& event) const {
     const std::string node = event.node == 0 ? "-" : std::to_string(event.node);
-    const char* const begin = has_colour_ && event.is_fault ? "\033[31m" : "";
-    std::string line = fmt::format("{:9.3f} {:>3}  {}{}{}", seconds(event.time), node, begin, event.text,
-                                   *begin != '\0' ? "\033[0m" : "");
+    std::string line = fmt::format("{:9.3f} {:>3}  {}", seconds(event.time), node, event.text);
     if (event.sdo != nullptr && event.sdo->time > event.sdo->begin) {
       line += fmt::format("  {:.1f} ms", static_cast<double>(event.sdo->time - event.sdo->begin) / 1000);
     }
-    print(line + '\n');
+    has_colour_&& event.is_fault ? print_red(line) : print(line + '\n');
   }
 
   void print_json(const Event& event) const {
@@ -122,12 +122,18 @@ class Recorder {
  public:
   /// \retval false  the file cannot be written; the reason is printed
   bool open(const std::string& path) {
-    file_.open(path, std::ios::binary);
-    log_ = file_ ? host_bus::write_log(file_, path, "can0") : nullptr;
-    if (log_ == nullptr) {
-      print_message(file_ ? path + ": a log is written with the ending .log or .pcapng" : path + " cannot be written");
+    std::ostringstream trial;
+    if (host_bus::write_log(trial, path, "can0") == nullptr) {
+      print_message(path + ": a log is written with the ending .log or .pcapng");
+      return false;
     }
-    return log_ != nullptr;
+    file_.open(path, std::ios::binary);
+    if (!file_) {
+      print_message(path + " cannot be written");
+      return false;
+    }
+    log_ = host_bus::write_log(file_, path, "can0");
+    return true;
   }
 
   void write(const Entry& entry, std::uint64_t lost) {
@@ -280,10 +286,14 @@ class Mon {
     for (const auto& [identifier, count] : numbers.by_identifier) {
       identifiers[identifier_text(identifier)] = count;
     }
-    const nlohmann::json json = {
-        {"frames", numbers.frames},   {"duration", static_cast<double>(numbers.last - numbers.first) / 1e6},
-        {"load", numbers.load(rate)}, {"errors", numbers.errors},
-        {"lost", bus.lost()},         {"identifiers", identifiers}};
+    nlohmann::json json = {{"frames", numbers.frames},
+                           {"duration", static_cast<double>(numbers.last - numbers.first) / 1e6},
+                           {"errors", numbers.errors},
+                           {"lost", bus.lost()},
+                           {"identifiers", identifiers}};
+    if (rate != 0) {
+      json["load"] = numbers.load(rate);
+    }
     print(json.dump() + '\n');
   }
 
@@ -295,6 +305,15 @@ class Mon {
 };
 
 int run(Options& options) {
+  std::error_code unused;
+  if (!options.record.empty() && std::filesystem::equivalent(options.log, options.record, unused)) {
+    print_message(options.record + " is read and cannot be the record, too");
+    return usage;
+  }
+  if (!options.log.empty() && !options.common.bus.empty()) {
+    print_message("give a log, or -i, and not both");
+    return usage;
+  }
   if (!options.log.empty()) {
     options.common.bus = "replay:" + options.log;
   }

@@ -6,7 +6,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "program/session.hpp"
+#include "program/bus_host.hpp"
+#include "program/verb.hpp"
 
 namespace lexican::program {
 namespace {
@@ -48,12 +49,35 @@ std::string state_text(std::uint8_t state) {
   }
 }
 
-/// Waits for the state on the bus. Frames pass the node of the session by, as it is not needed any more.
-int wait_for_state(Session& session, std::uint8_t node, const Command& command, const Options& options) {
-  const Micros begin = session.loop().now();
+/// Sends the command as soon as the bus accepts it.
+/// \retval false  the bus has accepted nothing for \a timeout
+bool send(host_bus::Bus& bus, BusHost& host, const CO_IF_FRM& frame, Micros timeout) {
+  const Micros begin = host.now();
+  while (!bus.send(frame)) {
+    if (host.interrupted() || host.now() - begin >= timeout) {
+      return false;
+    }
+    host.wait(millisecond);
+    bus.receive();
+  }
+  return true;
+}
+
+/// Waits until an adapter has the whole command.
+void flush(host_bus::Bus& bus, BusHost& host) {
+  const Micros begin = host.now();
+  while ((bus.wanted().events & POLLOUT) != 0 && host.now() - begin < 100 * millisecond) {
+    host.wait(millisecond);
+    bus.receive();
+  }
+}
+
+/// Waits until the error control of the device shows the state.
+int wait_for_state(host_bus::Bus& bus, BusHost& host, std::uint8_t node, const Command& command, Micros timeout) {
+  const Micros begin = host.now();
   std::uint8_t last = 0xFF;
-  while (session.loop().now() - begin < options.common.timeout * millisecond && !session.loop().interrupted()) {
-    while (const std::optional<host_bus::Entry> entry = session.bus().receive()) {
+  while (host.now() - begin < timeout && !host.interrupted()) {
+    while (const std::optional<host_bus::Entry> entry = bus.receive()) {
       if (entry->frame.Identifier != 0x700U + node || entry->frame.DLC != 1) {
         continue;
       }
@@ -62,13 +86,14 @@ int wait_for_state(Session& session, std::uint8_t node, const Command& command, 
         return ok;
       }
     }
-    session.host().wait(10 * millisecond);
+    host.wait(10 * millisecond);
   }
-  if (session.is_interrupted()) {
+  if (Interruption::happened()) {
+    print_message("interrupted; the command was sent");
     return interrupted;
   }
-  if (!session.bus().fault().empty()) {
-    print_message(session.bus().fault());
+  if (!bus.fault().empty()) {
+    print_message(bus.fault());
     return bus_fault;
   }
   if (last == 0xFF) {
@@ -106,14 +131,18 @@ int run(const Options& options) {
       return usage;
     }
   }
-  Session session(std::move(bus), node == 127 ? 1 : 127);
-  const CO_ERR error = CONmtCommand(&session.node().stack().Nmt, chosen->specifier, node);
-  if (error != CO_ERR_NONE) {
-    print_message(std::string("the command was not sent: ") + COErrText(error));
-    return bus_fault;
+  const Interruption interruption;
+  BusHost host(*bus, interruption);
+  const Micros timeout = options.common.timeout * millisecond;
+  const CO_IF_FRM frame = {0, {static_cast<std::uint8_t>(chosen->specifier), node}, 2};
+  if (!send(*bus, host, frame, timeout)) {
+    print_message("the command was not sent: " + (bus->fault().empty() ? "the bus accepts no frames" : bus->fault()));
+    return Interruption::happened() ? interrupted : bus_fault;
   }
-  session.loop().flush(100 * millisecond);
-  status = is_all ? ok : wait_for_state(session, node, *chosen, options);
+  if (is_all) {
+    flush(*bus, host);
+  }
+  status = is_all ? ok : wait_for_state(*bus, host, node, *chosen, timeout);
   if (options.common.is_json) {
     const nlohmann::json json = {{"command", chosen->name}, {"node", options.node}, {"done", status == ok}};
     print(json.dump() + '\n');

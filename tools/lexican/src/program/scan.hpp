@@ -30,8 +30,8 @@ struct Line {
   virtual bool is_ended() = 0;  ///< interrupted, or the bus is lost
 };
 
-/// Asks each node-ID from 1 to 127. \a answer_time: µs for each answer.
-/// \return the devices by node-ID
+/// Asks each node-ID from 1 to 127. \a answer_time: µs for each answer. Ends early if the line accepts no frame for
+/// half a second: nobody acknowledges the frames that are queued. \return the devices by node-ID
 std::vector<Found> find_devices(Line& line, Micros answer_time);
 
 }  // namespace lexican::program

@@ -73,6 +73,8 @@ std::uint8_t node_of(std::string_view text);
 void print_message(std::string_view text);
 /// Prints on the standard output, control characters but line ends as question marks.
 void print(std::string_view text);
+/// Prints a line in red.
+void print_red(std::string_view line);
 /// Returns true if the standard output is a terminal on which colours are wanted.
 bool has_colour();
 

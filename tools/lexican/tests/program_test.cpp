@@ -1,0 +1,715 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program lexican from outside, on a hub with simulated devices (device.cpp): standard output, standard error
+// output and exit status.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <list>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
+
+#include "json_schema.hpp"
+#include "process.hpp"
+
+namespace {
+
+using test::Process;
+using test::Ran;
+using Words = std::vector<std::string>;
+using Json = nlohmann::json;
+
+const std::string eds = LEXICAN_TOOL_DIR "/tests/fixtures/device.eds";
+
+/// Directory of a test, also for the sockets of hubs.
+class Directory {
+ public:
+  Directory() {
+    char name[] = "/tmp/lexican-test-XXXXXX";
+    path_ = mkdtemp(name);
+  }
+  ~Directory() { std::filesystem::remove_all(path_); }
+  Directory(const Directory&) = delete;
+  Directory& operator=(const Directory&) = delete;
+  std::string operator/(const std::string& name) const { return path_ + '/' + name; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+void write_bytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Replaces durations, whose digits depend on the computer: "in 1.3 s" and "0.6 ms".
+std::string without_times(const std::string& text) {
+  const std::string seconds = std::regex_replace(text, std::regex("in [0-9.]+ s"), "in T s");
+  return std::regex_replace(seconds, std::regex("[0-9.]+ ms"), "T ms");
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// Returns the fault of the lines of --json, held against docs/schema.json.
+std::string fault_of(const std::string& text, const std::string& verb) {
+  static const test::Schema schema(Json::parse(bytes_of(LEXICAN_TOOL_DIR "/docs/schema.json")));
+  for (const std::string& line : lines_of(text)) {
+    const Json value = Json::parse(line, nullptr, false);
+    const std::string fault = value.is_discarded() ? "no JSON: " + line : schema.fault_of(value, verb);
+    if (!fault.empty()) {
+      return fault;
+    }
+  }
+  return lines_of(text).empty() ? "no line" : "";
+}
+
+/// A hub with devices, and the program on it.
+class Bench {
+ public:
+  Bench() : hub_("hub:test-" + std::to_string(getpid())) {
+    environment_ = {{"XDG_RUNTIME_DIR", directory.path()}, {"LEXICAN_BUS", hub_}, {"NO_COLOR", "1"}};
+  }
+  /// A bench with devices of some node-IDs.
+  explicit Bench(std::initializer_list<unsigned> nodes) : Bench() {
+    for (const unsigned node : nodes) {
+      add(node);
+    }
+  }
+
+  Process& add(unsigned node, const std::string& kind = "usual") {
+    devices_.emplace_back(Words{LEXICAN_TEST_DEVICE, hub_, std::to_string(node), kind}, environment_);
+    devices_.back().wait_for("ready");
+    return devices_.back();
+  }
+
+  Words line(const std::string& verb, Words words) const {
+    const bool is_transfer = verb == "read" || verb == "write";
+    if (is_transfer && std::find(words.begin(), words.end(), "--timeout") == words.end()) {
+      words.insert(words.begin(), {"--timeout", "60000"});  // no answer is late on a busy computer
+    }
+    words.insert(words.begin(), {LEXICAN_PROGRAM, verb});
+    return words;
+  }
+  Ran run(const std::string& verb, const Words& words) const {
+    return Process(line(verb, words), environment_).finish();
+  }
+  /// Runs it with a file as standard input.
+  Ran run_with_input(const std::string& verb, const Words& words, const std::string& path) const {
+    const int input = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    REQUIRE(input >= 0);
+    Process process(line(verb, words), environment_, input);
+    close(input);
+    return process.finish();
+  }
+  /// Runs it in a shell, with "$0" as the program.
+  Ran run_shell(const std::string& command) const {
+    return Process({"/bin/sh", "-c", command, LEXICAN_PROGRAM}, environment_).finish();
+  }
+  const std::string& hub() const { return hub_; }
+  const Process::Environment& environment() const { return environment_; }
+  void set(const std::string& name, const std::string& value) { environment_[name] = value; }
+
+  Directory directory;
+
+ private:
+  std::string hub_;
+  Process::Environment environment_;
+  std::list<Process> devices_;
+};
+
+void check(const Ran& ran, int status, const std::string& out, const std::string& err) {
+  CHECK(ran.out == out);
+  CHECK(ran.err == err);
+  CHECK(ran.status == status);
+}
+
+Ran run(const Words& words) {
+  Words line = words;
+  line.insert(line.begin(), LEXICAN_PROGRAM);
+  return Process(line, {{"LEXICAN_BUS", ""}}).finish();
+}
+
+}  // namespace
+
+TEST_CASE("lexican: without arguments all verbs are listed") {
+  check(run({}), 0,
+        "Finds, watches, reads and writes CANopen devices on any CAN bus.\n"
+        "\n"
+        "  scan     Find the devices of a bus: state, profile, identity and name\n"
+        "  mon      Show in words what happens on a bus, or in a log\n"
+        "  read     Read an object of a device\n"
+        "  write    Write an object of a device\n"
+        "  nmt      Change the NMT state of a device, or of all\n"
+        "\n"
+        "lexican VERB --help shows options and examples. Begin with: lexican scan -i BUS\n",
+        "");
+  check(run({"--version"}), 0, "lexican " LEXICAN_VERSION "\n", "");
+  CHECK(has(run({"--help"}).out, "Exit status: 0 all is well"));
+}
+
+TEST_CASE("lexican: the help of each verb has its options and examples") {
+  for (const char* verb : {"scan", "mon", "read", "write", "nmt"}) {
+    CAPTURE(verb);
+    const Ran ran = run({verb, "--help"});
+    CHECK(ran.status == 0);
+    CHECK(ran.err.empty());
+    CHECK(has(ran.out, "-i,--bus"));
+    CHECK(has(ran.out, "--json"));
+    CHECK(has(ran.out, std::string("Examples:\n  lexican ") + verb));
+  }
+}
+
+TEST_CASE("lexican: an unknown verb is refused with the nearest one") {
+  check(run({"scna"}), 2, "", "lexican: unknown verb scna; did you mean scan?\n");
+  check(run({"frobnicate"}), 2, "", "lexican: unknown verb frobnicate; lexican --help lists all\n");
+  CHECK(run({"--nonsense"}).status == 2);
+  CHECK(run({"scan", "--nonsense"}).status == 2);
+  CHECK(run({"read", "5"}).status == 2);
+  CHECK(run({"nmt", "jump", "5"}).status == 2);
+}
+
+TEST_CASE("lexican: a verb may be shortened") {
+  CHECK(run({"rea", "--help"}).out == run({"read", "--help"}).out);
+  CHECK(run({"s", "--help"}).out == run({"scan", "--help"}).out);
+  CHECK(run({"", "--help"}).out == run({"--help"}).out);
+  check(run({"reads", "5", "1000"}), 2, "", "lexican: unknown verb reads; did you mean read?\n");
+}
+
+TEST_CASE("lexican: the bus comes from -i, else from LEXICAN_BUS") {
+  check(run({"scan"}), 2, "",
+        "lexican: which bus? Give -i BUS, for example -i can0 or -i hub:bench, or set LEXICAN_BUS\n");
+  Bench bench{5};
+  CHECK(bench.run("read", {"5", "1017"}).status == 0);
+  bench.set("LEXICAN_BUS", "");
+  CHECK(bench.run("read", {"5", "1017"}).status == 2);
+  CHECK(bench.run("read", {"5", "1017", "-i", bench.hub()}).status == 0);
+  bench.set("LEXICAN_BUS", "hub:another");
+  CHECK(bench.run("read", {"5", "1017", "-i", bench.hub()}).status == 0);
+}
+
+TEST_CASE("lexican: a bus that cannot be opened is a bus fault, a wrong rate is wrong use") {
+  const Ran ran = run({"scan", "-i", "slcan:/nonexistent"});
+  CHECK(ran.status == 4);
+  CHECK(has(ran.err, "/nonexistent"));
+  CHECK(run({"read", "5", "1000", "-i", "nosuchcan7"}).status == 4);
+  CHECK(run({"nmt", "start", "5", "-i", "hub:"}).status == 4);
+  CHECK(run({"mon", "-i", "socketcand:nowhere"}).status == 4);
+  for (const char* rate : {"fast", "0", "2M", "500kk", "-5"}) {
+    CAPTURE(rate);
+    check(run({"scan", "-i", "hub:x", "--rate", rate}), 2, "",
+          std::string("lexican: '") + rate + "' is no bit rate; write 500k, 1M or 500000\n");
+  }
+}
+
+TEST_CASE("lexican read: a wrong node is wrong use, a silent one is no answer") {
+  const Bench bench;
+  for (const char* node : {"0", "128", "five", "5x", "300"}) {
+    CAPTURE(node);
+    check(bench.run("read", {node, "1000"}), 2, "",
+          std::string("lexican: '") + node + "' is no node-ID, which is 1 to 127\n");
+  }
+  check(bench.run("read", {"9", "1000", "--timeout", "50"}), 3, "",
+        "lexican: node 9 does not answer; is it on this bus, with power, and at this bit rate? lexican scan shows who "
+        "answers\n");
+  CHECK(bench.run("write", {"9", "1017", "5", "--type", "u16", "--timeout", "50"}).status == 3);
+  CHECK(bench.run("read", {"5", "1000", "--timeout", "0"}).status == 2);
+}
+
+TEST_CASE("lexican read: an object by index, without and with a description") {
+  const Bench bench{5};
+  check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h\n", "");
+  check(bench.run("read", {"5", "0x1018:4"}), 0, "1018h:04 serial number = 000001A2h\n", "");
+  check(bench.run("read", {"5", "1018h:04", "--type", "u32"}), 0, "1018h:04 serial number = 418 (u32)\n", "");
+  check(bench.run("read", {"5", "1008"}), 0, "1008h:00 manufacturer device name = \"SD-400\"\n", "");
+  check(bench.run("read", {"5", "2001", "--eds", eds}), 0, "2001h Temperature = -40 (i16)\n", "");
+  check(bench.run("read", {"5", "2001", "--eds", "5=" + eds}), 0, "2001h Temperature = -40 (i16)\n", "");
+  check(bench.run("read", {"5", "2001", "--eds", "6=" + eds}), 0, "2001h:00 = FFD8h\n", "");
+  check(bench.run("read", {"5", "1018:4", "--eds", eds}), 0, "1018h:04 Identity object, Serial number = 418 (u32)\n",
+        "");
+  check(bench.run("read", {"5", "2003", "--eds", eds}), 0, "2003h Temperature offset = 0.5 (r32)\n", "");
+  check(bench.run("read", {"5", "2004", "--eds", eds}), 0, "2004h Enabled = 1 (bool)\n", "");
+  check(bench.run("read", {"5", "2005", "--eds", eds}), 0, "2005h Label = \"axis\" (string)\n", "");
+}
+
+TEST_CASE("lexican read: an object by its name, or a part of it") {
+  const Bench bench{5};
+  check(bench.run("read", {"5", "cycle count", "--eds", eds}), 0, "2006h Cycle count = 7 (u32)\n", "");
+  check(bench.run("read", {"5", "cycle", "--eds", eds}), 0, "2006h Cycle count = 7 (u32)\n", "");
+  check(bench.run("read", {"5", "serial number", "--eds", eds}), 0,
+        "1018h:04 Identity object, Serial number = 418 (u32)\n", "");
+  check(bench.run("read", {"5", "position", "--eds", eds}), 0, "2002h Position = 1000 (u32)\n", "");
+  check(bench.run("read", {"5", "device name"}), 0, "1008h:00 manufacturer device name = \"SD-400\"\n", "");
+  check(bench.run("read", {"5", "temp", "--eds", eds}), 2, "",
+        "lexican: 'temp' is the name of several objects; give more of it, or the index:\n"
+        "  2001h Temperature\n"
+        "  2003h Temperature offset\n");
+  check(bench.run("read", {"5", "temperture", "--eds", eds}), 2, "",
+        "lexican: no object is called 'temperture'; did you mean Temperature?\n");
+  check(bench.run("read", {"5", "zzz", "--eds", eds}), 2, "",
+        "lexican: no object is called 'zzz'; an index is hexadecimal: 6081, 1018:4\n");
+  check(bench.run("read", {"5", "zzz"}), 2, "",
+        "lexican: no object is called 'zzz'; names need a description: --eds FILE. An index is hexadecimal: 6081, "
+        "1018:4\n");
+  const Ran ambiguous = bench.run("read", {"5", "o", "--eds", eds});
+  CHECK(ambiguous.status == 2);
+  CHECK(lines_of(ambiguous.err).size() == 10);
+  CHECK(has(lines_of(ambiguous.err).back(), " more"));
+}
+
+TEST_CASE("lexican read: an abort is shown with object, code, meaning and remedy") {
+  const Bench bench{5};
+  check(bench.run("read", {"5", "2007", "--eds", eds}), 1, "",
+        "lexican: node 5, 2007h Password: aborted with 0601 0001h object is write-only; the object can only be "
+        "written\n");
+  check(
+      bench.run("read", {"5", "3000"}), 1, "",
+      "lexican: node 5, 3000h:00: aborted with 0602 0000h object does not exist; the description may belong to another "
+      "version of the device; compare 1018h\n");
+  check(bench.run("read", {"5", "1018:9"}), 1, "",
+        "lexican: node 5, 1018h:09 identity object: aborted with 0609 0011h sub-index does not exist; the description "
+        "may "
+        "belong to another version of the device; compare 1018h\n");
+  check(
+      bench.run("write", {"5", "2006", "1", "--eds", eds}), 1, "",
+      "lexican: node 5, 2006h Cycle count: aborted with 0601 0002h object is read-only; the object can only be read\n");
+  check(bench.run("write", {"5", "2008", "1", "--eds", eds}), 1, "",
+        "lexican: node 5, 2008h Mode: aborted with 0800 0022h data cannot be stored: device state; another state may "
+        "accept "
+        "it: lexican nmt preop NODE, or switch the device off first\n");
+}
+
+TEST_CASE("lexican: a description that cannot be read is wrong use") {
+  const Bench bench;
+  const Ran ran = bench.run("read", {"5", "1000", "--eds", bench.directory / "none.eds"});
+  CHECK(ran.status == 2);
+  CHECK(has(ran.err, "none.eds"));
+  CHECK(bench.run("read", {"5", "1000", "--eds", "200=" + eds}).status == 2);
+  CHECK(bench.run("read", {"5", "1000", "--eds", bench.directory.path()}).status == 2);
+}
+
+TEST_CASE("lexican write: values of each type, and what reads back") {
+  const Bench bench{5};
+  struct Value {
+    const char* object;
+    const char* written;
+    const char* read;
+  };
+  for (const Value& value :
+       {Value{"2000", "255", "2000h Output = 255 (u8)\n"}, Value{"2001", "-5", "2001h Temperature = -5 (i16)\n"},
+        Value{"2001", "-0x10", "2001h Temperature = -16 (i16)\n"}, Value{"2002", "0x10", "2002h Position = 16 (u32)\n"},
+        Value{"2003", "-1.5", "2003h Temperature offset = -1.5 (r32)\n"},
+        Value{"2004", "false", "2004h Enabled = 0 (bool)\n"},
+        Value{"2005", "spindle 2", "2005h Label = \"spindle 2\" (string)\n"}}) {
+    CAPTURE(value.object);
+    check(bench.run("write", {"5", value.object, value.written, "--eds", eds, "--verify"}), 0, "", "");
+    check(bench.run("read", {"5", value.object, "--eds", eds}), 0, value.read, "");
+  }
+  check(bench.run("write", {"5", "2001", "--eds", eds, "--", "-7"}), 0, "", "");
+  check(bench.run("read", {"5", "2001", "--type", "i16"}), 0, "2001h:00 = -7 (i16)\n", "");
+  check(bench.run("write", {"5", "2001", "FFFF", "--type", "bytes"}), 0, "", "");
+  check(bench.run("read", {"5", "2001", "--type", "u32"}), 0,
+        "2001h:00 = the object has 2 bytes, a value of this type has 4: 0xFFFF (u32)\n", "");
+}
+
+TEST_CASE("lexican write: a value that does not fit is refused before anything is sent") {
+  const Bench bench;
+  check(bench.run("write", {"5", "2000", "256", "--eds", eds}), 2, "",
+        "lexican: 2000h Output: 256 is out of range, 0...255\n");
+  check(bench.run("write", {"5", "2000", "five", "--eds", eds}), 2, "",
+        "lexican: 2000h Output: 'five' is no integer\n");
+  check(bench.run("write", {"5", "2001", "126", "--eds", eds}), 2, "",
+        "lexican: 2001h Temperature: 126 is beyond the limits of the description, -40 to 125; --force writes it\n");
+  check(bench.run("write", {"5", "2001", "-41", "--eds", eds}), 2, "",
+        "lexican: 2001h Temperature: -41 is beyond the limits of the description, -40 to 125; --force writes it\n");
+  check(bench.run("write", {"5", "2002", "5"}), 2, "",
+        "lexican: the type of 2002h:00 is unknown; give --type (u8, u16, u24 ... u64, i8, i16, i24 ... i64, r32, r64, "
+        "bool, string, bytes (or domain)) or --eds\n");
+  check(
+      bench.run("write", {"5", "2002", "5", "--type", "u33"}), 2, "",
+      "lexican: 'u33' is no type; types are u8, u16, u24 ... u64, i8, i16, i24 ... i64, r32, r64, bool, string, bytes "
+      "(or domain)\n");
+  check(bench.run("write", {"5", "2002"}), 2, "", "lexican: give a value, or --file, and not both\n");
+  check(bench.run("write", {"5", "2002", "5", "--file", eds}), 2, "",
+        "lexican: give a value, or --file, and not both\n");
+  CHECK(bench.run("write", {"5", "2002", "--file", bench.directory / "none"}).status == 2);
+}
+
+TEST_CASE("lexican write: --force writes beyond the limits of the description") {
+  const Bench bench{5};
+  check(bench.run("write", {"5", "2001", "126", "--eds", eds, "--force", "--verify"}), 0, "", "");
+  check(bench.run("read", {"5", "2001", "--eds", eds}), 0, "2001h Temperature = 126 (i16)\n", "");
+}
+
+TEST_CASE("lexican write: --verify names a value that reads back differently") {
+  const Bench bench{5};
+  check(bench.run("write", {"5", "200A", "7", "--eds", eds, "--verify"}), 1, "",
+        "lexican: 200Ah Position limit was written, but reads back as 5\n");
+  check(bench.run("write", {"5", "2007", "7", "--eds", eds, "--verify"}), 1, "",
+        "lexican: node 5, 2007h Password: aborted with 0601 0001h object is write-only; the object can only be "
+        "written\n");
+}
+
+TEST_CASE("lexican read, write: a domain of 100 KB has the same bytes in both directions") {
+  const Bench bench{5};
+  std::string program(100'000, '\0');
+  for (std::size_t n = 0; n < program.size(); ++n) {
+    program[n] = static_cast<char>(n * 7 + n / 256);
+  }
+  const std::string up = bench.directory / "up.bin";
+  const std::string down = bench.directory / "down.bin";
+  check(bench.run("read", {"5", "2009", "-o", up}), 0, "", "");
+  CHECK((bytes_of(up) == program));
+  const Ran piped = bench.run("read", {"5", "program", "--eds", eds, "-o", "-"});
+  CHECK((piped.out == program));
+  CHECK(piped.err.empty());
+  std::reverse(program.begin(), program.end());
+  write_bytes(down, program);
+  check(bench.run("write", {"5", "2009", "--file", down, "--verify"}), 0, "", "");
+  CHECK((bench.run("read", {"5", "2009", "-o", "-"}).out == program));
+  check(bench.run("read", {"5", "2009", "--most", "99999"}), 1, "",
+        "lexican: 2009h:00 has more than 99999 bytes; allow more by --most\n");
+  CHECK(bench.run("read", {"5", "2009", "-o", bench.directory / "none/file"}).status == 2);
+  check(bench.run_with_input("write", {"5", "2005", "--file", "-"}, "/dev/null"), 0, "", "");
+  check(bench.run("read", {"5", "2005", "--eds", eds}), 0, "2005h Label = \"\" (string)\n", "");
+}
+
+TEST_CASE("lexican read: control characters of a device do not reach the terminal") {
+  const Bench bench{5};
+  check(bench.run("write", {"5", "2005", "61 1B 5B 33 31 6D 7F", "--type", "bytes"}), 0, "", "");
+  check(bench.run("read", {"5", "2005", "--type", "string"}), 0, "2005h:00 = a?[31m? (string)\n", "");
+}
+
+TEST_CASE("lexican read, write: an interruption aborts the transfer") {
+  Bench bench;
+  Process& device = bench.add(5, "slow");
+  SUBCASE("upload") {
+    Process upload(bench.line("read", {"5", "2009", "-o", "-"}), bench.environment());
+    device.wait_for("request");
+    upload.send(SIGINT);
+    check(upload.finish(), 130, "", "lexican: interrupted; the transfer was aborted\n");
+  }
+  SUBCASE("download") {
+    const std::string file = bench.directory / "file";
+    write_bytes(file, std::string(100'000, 'x'));
+    Process download(bench.line("write", {"5", "2009", "--file", file}), bench.environment());
+    device.wait_for("request");
+    download.send(SIGTERM);
+    check(download.finish(), 130, "", "lexican: interrupted; the transfer was aborted\n");
+  }
+  device.wait_for("abort 08000021");
+}
+
+TEST_CASE("lexican read, write: --json") {
+  const Bench bench{5};
+  const Ran read = bench.run("read", {"5", "2001", "--eds", eds, "--json"});
+  check(read, 0,
+        R"({"data":"D8FF","index":8193,"node":5,"object":"2001h Temperature","sub":0,"type":"i16","value":"-40"})"
+        "\n",
+        "");
+  CHECK(fault_of(read.out, "read") == "");
+  CHECK(fault_of(bench.run("read", {"5", "2009", "--json"}).out, "read") == "");
+  const Ran write = bench.run("write", {"5", "2001", "5", "--eds", eds, "--json", "--verify"});
+  check(write, 0,
+        R"({"bytes":2,"index":8193,"node":5,"object":"2001h Temperature","sub":0,"verified":true})"
+        "\n",
+        "");
+  CHECK(fault_of(write.out, "write") == "");
+  check(
+      bench.run("read", {"5", "3000", "--json"}), 1, "",
+      "lexican: node 5, 3000h:00: aborted with 0602 0000h object does not exist; the description may belong to another "
+      "version of the device; compare 1018h\n");
+}
+
+TEST_CASE("lexican: the check of a JSON schema finds faults") {
+  const test::Schema schema(Json::parse(bytes_of(LEXICAN_TOOL_DIR "/docs/schema.json")));
+  CHECK(schema.fault_of(Json::parse(R"({"node": 5, "serial": 1})"), "scan") == "");
+  for (const char* wrong : {R"({})", R"({"node": 0})", R"({"node": 128})", R"({"node": "5"})", R"({"node": 5.5})",
+                            R"({"node": 5, "more": 1})", R"([5])"}) {
+    CAPTURE(wrong);
+    CHECK(schema.fault_of(Json::parse(wrong), "scan") != "");
+  }
+  CHECK(schema.fault_of(Json::parse(R"({"command": "jump", "node": "5", "done": true})"), "nmt") != "");
+  CHECK(schema.fault_of(Json::parse(R"({"command": "stop", "node": "", "done": true})"), "nmt") != "");
+  CHECK(schema.fault_of(Json::parse(R"({"frames": 1})"), "mon") != "");
+}
+
+TEST_CASE("lexican nmt: a command waits for the state that it causes") {
+  const Bench bench{5};
+  check(bench.run("write", {"5", "1017", "50", "--type", "u16"}), 0, "", "");
+  check(bench.run("nmt", {"start", "5", "--timeout", "30000"}), 0, "", "");
+  check(bench.run("nmt", {"stop", "5", "--timeout", "30000"}), 0, "", "");
+  CHECK(bench.run("read", {"5", "1000", "--timeout", "50"}).status == 3);
+  check(bench.run("nmt", {"preop", "5", "--timeout", "30000"}), 0, "", "");
+  check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h\n", "");
+  const Ran json = bench.run("nmt", {"start", "5", "--timeout", "30000", "--json"});
+  check(json, 0, "{\"command\":\"start\",\"done\":true,\"node\":\"5\"}\n", "");
+  CHECK(fault_of(json.out, "nmt") == "");
+  check(bench.run("nmt", {"reset", "5", "--timeout", "30000"}), 0, "", "");
+  check(bench.run("nmt", {"reset-comm", "5", "--timeout", "30000"}), 0, "", "");
+}
+
+TEST_CASE("lexican nmt: the state of a device without heartbeat is unknown") {
+  const Bench bench{5};
+  check(bench.run("nmt", {"start", "5", "--timeout", "50"}), 0, "",
+        "lexican: sent; node 5 sends no heartbeat, so its state is unknown (1017h switches it on)\n");
+  check(bench.run("nmt", {"reset", "9", "--timeout", "50"}), 3, "",
+        "lexican: sent; node 9 sends no heartbeat, so its state is unknown (1017h switches it on)\n");
+  check(bench.run("nmt", {"start", "200"}), 2, "", "lexican: '200' is no node-ID, which is 1 to 127, or all\n");
+}
+
+TEST_CASE("lexican nmt: all nodes, without a question on a simulated bus") {
+  Bench bench{5, 6};
+  check(bench.run("write", {"5", "1017", "50", "--type", "u16"}), 0, "", "");
+  check(bench.run("write", {"6", "1017", "50", "--type", "u16"}), 0, "", "");
+  check(bench.run("nmt", {"start", "all"}), 0, "", "");
+  const Ran scan = bench.run("scan", {"--timeout", "200"});
+  CHECK(has(scan.out, "   5  operational"));
+  CHECK(has(scan.out, "   6  operational"));
+}
+
+TEST_CASE("lexican nmt: a reset, and a command to all, on a physical bus need --yes without a terminal") {
+  const Bench bench;
+  const std::string refusal = "lexican: this command changes a physical bus: confirm it by --yes\n";
+  for (const Words& words : {Words{"start", "all"}, Words{"reset", "5"}, Words{"reset-comm", "5"}}) {
+    CAPTURE(words[0]);
+    const Ran ran = bench.run("nmt", {words[0], words[1], "-i", "slcan-pty"});
+    CHECK(ran.status == 2);
+    CHECK(ran.out == "");
+    REQUIRE(lines_of(ran.err).size() >= 1);
+    CHECK(lines_of(ran.err).back() + '\n' == refusal);
+  }
+  CHECK(bench.run("nmt", {"reset", "all", "--yes", "-i", "slcan-pty", "--timeout", "50"}).status != 2);
+  CHECK(bench.run("nmt", {"start", "5", "-i", "slcan-pty", "--timeout", "50"}).status != 2);
+}
+
+TEST_CASE("lexican scan: devices with state, profile, identity and name") {
+  Bench bench{5, 127};
+  bench.add(12, "silent");
+  const Ran ran = bench.run("scan", {"--timeout", "200"});
+  CHECK(without_times(ran.out) ==
+        "node  state            profile         vendor:product     serial    name\n"
+        "   5  no heartbeat     402 drive       00000100:00000402  000001A2  SD-400\n"
+        "  12  pre-operational  -               -:-  -         \n"
+        " 127  no heartbeat     402 drive       00000100:00000402  000001A2  SD-400\n"
+        "3 nodes in T s\n");
+  CHECK(ran.err == "");
+  CHECK(ran.status == 0);
+  const Ran json = bench.run("scan", {"--json", "--timeout", "200"});
+  check(json, 0,
+        R"({"device_type":131474,"name":"SD-400","node":5,"product":1026,"serial":418,"vendor":256})"
+        "\n"
+        R"({"node":12,"state":"pre-operational"})"
+        "\n"
+        R"({"device_type":131474,"name":"SD-400","node":127,"product":1026,"serial":418,"vendor":256})"
+        "\n",
+        "");
+  CHECK(fault_of(json.out, "scan") == "");
+}
+
+TEST_CASE("lexican scan: nobody answers") {
+  const Bench bench;
+  check(bench.run("scan", {"--timeout", "10"}), 3, "",
+        "lexican: no node answered, and no frame was received; no device runs on this simulated bus\n");
+}
+
+namespace {
+
+/// A log with a boot-up, transfers, PDOs, an EMCY and an error frame.
+const char* const log_text =
+    "(1000.000000) can0 705#00\n"
+    "(1000.010000) can0 605#2B17100064000000\n"
+    "(1000.010600) can0 585#6017100000000000\n"
+    "(1000.020000) can0 000#0105\n"
+    "(1000.030000) can0 705#05\n"
+    "(1000.040000) can0 185#D8FFE8030000\n"
+    "(1000.050000) can0 205#07\n"
+    "(1000.060000) can0 605#2F08200001000000\n"
+    "(1000.061200) can0 585#8008200022000008\n"
+    "(1000.070000) can0 085#1043090000000000\n"
+    "(1000.080000) can0 20000004#0004000000006000\n"
+    "(1000.090000) can0 705#05\n"
+    "(1000.100000) can0 606#4000100000000000\n"
+    "(1000.101000) can0 586#4300100000000000\n";
+
+const char* const event_text =
+    "    0.000   5  boot-up\n"
+    "    0.011   5  write 1017h Producer heartbeat time = 100  0.6 ms\n"
+    "    0.020   -  NMT start, node 5\n"
+    "    0.030   5  heartbeat: operational\n"
+    "    0.040   5  TPDO1 Temperature = -40, Position = 1000\n"
+    "    0.050   5  RPDO1 Output = 7\n"
+    "    0.061   5  write 2008h Mode refused: 0800 0022h data cannot be stored: device state  1.2 ms\n"
+    "    0.070   5  EMCY 4310h temperature, error register 09h\n"
+    "    0.080   -  bus: error warning level reached (TEC 96, REC 0)\n"
+    "    0.101   6  read 1000h:00 device type = 00000000h  1.0 ms\n";
+
+const char* const number_text =
+    "       000h         1       9.9/s\n"
+    "       085h         1       9.9/s\n"
+    "       185h         1       9.9/s\n"
+    "       205h         1       9.9/s\n"
+    "       585h         2      19.8/s\n"
+    "       586h         1       9.9/s\n"
+    "       605h         2      19.8/s\n"
+    "       606h         1       9.9/s\n"
+    "       705h         3      29.7/s\n";
+
+/// Returns the lines in front of the statistics.
+std::string events_of(const std::string& output) { return output.substr(0, output.find("\n\n") + 1); }
+
+/// A bench with the log as a file.
+struct LogBench : Bench {
+  LogBench() { write_bytes(log, log_text); }
+  /// Runs mon with the log, described by the EDS.
+  Ran mon(Words words) const {
+    words.insert(words.begin(), {log, "--eds", "5=" + eds});
+    return run("mon", words);
+  }
+  std::string events(const Words& words) const { return events_of(mon(words).out); }
+
+  std::string log = directory / "fault.log";
+};
+
+}  // namespace
+
+TEST_CASE("lexican mon: a log in words, with statistics") {
+  const LogBench bench;
+  const std::string about = "\n13 frames in 0.101 s";
+  check(bench.mon({"--rate", "500k"}), 0,
+        event_text + about + ", bus load 2.5 % of 500 kbit/s, 1 error frames, 0 lost\n" + number_text, "");
+  check(bench.mon({}), 0, event_text + about + ", 1 error frames, 0 lost\n" + number_text, "");
+  check(bench.run_with_input("mon", {"-", "--eds", "5=" + eds}, bench.log), 0, bench.mon({}).out, "");
+  CHECK(has(bench.run("mon", {bench.log}).out, "    0.040   5  TPDO1 D8 FF E8 03 00 00\n"));
+}
+
+TEST_CASE("lexican mon: filters by node, service and object; --all") {
+  const LogBench bench;
+  CHECK(bench.events({"--node", "6"}) == "    0.101   6  read 1000h:00 device type = 00000000h  1.0 ms\n");
+  CHECK(bench.events({"-n", "6", "-n", "5"}) == std::regex_replace(event_text, std::regex("[^\n]* -  [^\n]*\n"), ""));
+  CHECK(bench.events({"--service", "emcy", "--service", "error"}) ==
+        "    0.070   5  EMCY 4310h temperature, error register 09h\n"
+        "    0.080   -  bus: error warning level reached (TEC 96, REC 0)\n");
+  const std::string refused =
+      "    0.061   5  write 2008h Mode refused: 0800 0022h data cannot be stored: device state  1.2 ms\n";
+  CHECK(bench.events({"--object", "2008"}) == refused);
+  CHECK(bench.events({"--object", "Mode", "--service", "sdo", "--node", "5"}) == refused);
+  CHECK(bench.events({"--object", "nothing"}) == "");
+  const std::string all = bench.events({"--all"});
+  CHECK(has(all, "    0.090   5  heartbeat: operational\n"));
+  CHECK(lines_of(all).size() == 11);
+  CHECK(lines_of(bench.events({"--service", "state"})).size() == 3);
+}
+
+TEST_CASE("lexican mon: --json") {
+  const LogBench bench;
+  const Ran ran = bench.mon({"--json", "--rate", "500k"});
+  CHECK(ran.status == 0);
+  CHECK(fault_of(ran.out, "mon") == "");
+  const std::vector<std::string> lines = lines_of(ran.out);
+  REQUIRE(lines.size() == 11);
+  CHECK(
+      lines[6] ==
+      R"({"fault":true,"node":5,"sdo":{"abort":134217762,"bytes":1,"data":"01","duration":0.0012,"index":8200,"sub":0,)"
+      R"("write":true},"service":"sdo","text":"write 2008h Mode refused: 0800 0022h data cannot be stored: device )"
+      R"(state","time":0.0612})");
+  const Json numbers = Json::parse(lines.back());
+  CHECK(numbers["frames"] == 13);
+  CHECK(numbers["errors"] == 1);
+  CHECK(numbers["identifiers"]["705h"] == 3);
+  CHECK(numbers.contains("load"));
+  CHECK(fault_of(bench.mon({"--json"}).out, "mon") == "");
+  CHECK(!has(bench.mon({"--json"}).out, "load"));
+}
+
+TEST_CASE("lexican mon: a record has the same events as the log") {
+  const LogBench bench;
+  for (const char* name : {"copy.log", "copy.pcapng"}) {
+    CAPTURE(name);
+    const std::string copy = bench.directory / name;
+    check(bench.mon({"--log", copy}), 0, bench.mon({}).out, "");
+    check(bench.run("mon", {copy, "--eds", "5=" + eds}), 0, bench.mon({}).out, "");
+  }
+}
+
+TEST_CASE("lexican mon: wrong use, and files that cannot be used") {
+  const LogBench bench;
+  const std::string asc = bench.directory / "old.asc";
+  write_bytes(asc, "old");
+  check(bench.mon({"--log", asc}), 2, "", "lexican: " + asc + ": a log is written with the ending .log or .pcapng\n");
+  CHECK(bytes_of(asc) == "old");
+  check(bench.mon({"--log", bench.log}), 2, "", "lexican: " + bench.log + " is read and cannot be the record, too\n");
+  CHECK(bytes_of(bench.log) == log_text);
+  check(bench.mon({"--log", "/nonexistent/a.log"}), 2, "", "lexican: /nonexistent/a.log cannot be written\n");
+  check(bench.mon({"-i", bench.hub()}), 2, "", "lexican: give a log, or -i, and not both\n");
+  check(bench.mon({"-n", "0"}), 2, "", "lexican: '0' is no node-ID, which is 1 to 127\n");
+  CHECK(bench.mon({"--service", "all"}).status == 2);
+  check(bench.run("mon", {bench.directory / "none"}), 2, "",
+        "lexican: " + bench.directory.path() + "/none: No such file or directory\n");
+  const std::string rubbish = bench.directory / "rubbish";
+  write_bytes(rubbish, "rubbish\n");
+  const Ran ran = bench.run("mon", {rubbish});
+  CHECK(ran.status == 2);
+  CHECK(has(ran.err, "unknown format"));
+  const Ran full = bench.run_shell("\"$0\" mon '" + bench.log + "' >/dev/full");
+  check(full, 2, "", "lexican: standard output: No space left on device\n");
+}
+
+TEST_CASE("lexican mon: a closed pipe ends it without a message") {
+  const LogBench bench;
+  std::string lines;
+  for (unsigned n = 0; n < 20'000; ++n) {
+    lines += "(1000.000000) can0 185#0102030405060708\n";
+  }
+  write_bytes(bench.log, lines);
+  check(bench.run_shell("\"$0\" mon '" + bench.log + "' | head -n 1"), 0,
+        "    0.000   5  TPDO1 01 02 03 04 05 06 07 08\n", "");
+}
+
+TEST_CASE("lexican mon: a bus, until it is interrupted, and its record") {
+  Bench bench{5};
+  bench.add(12, "silent");
+  const std::string record = bench.directory / "record.pcapng";
+  Process mon(bench.line("mon", {"--log", record}), bench.environment());
+  mon.wait_for(" 12  heartbeat: pre-operational");
+  check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h\n", "");
+  mon.wait_for("  5  read 1000h:00 device type = 00020192h");
+  mon.send(SIGINT);
+  const Ran ran = mon.finish();
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  CHECK(has(ran.out, ", 0 error frames, 0 lost\n"));
+  CHECK(bench.run("mon", {record}).out == ran.out);
+}
+
+TEST_CASE("lexican mon: a bus without any frame is no answer") {
+  const Bench bench;
+  Process mon(bench.line("mon", {}), bench.environment());
+  // SIGTERM ends the program also before it has opened the bus.
+  mon.send(SIGTERM);
+  const Ran ran = mon.finish();
+  CHECK((ran.status == 3 || ran.status == 128 + SIGTERM));
+}
+
+TEST_CASE("lexican scan: an interruption ends it") {
+  Bench bench;
+  Process& device = bench.add(5);
+  Process scan(bench.line("scan", {"--timeout", "60000"}), bench.environment());
+  device.wait_for("request");
+  scan.send(SIGINT);
+  check(scan.finish(), 130, "", "lexican: interrupted\n");
+}
