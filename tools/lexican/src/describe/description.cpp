@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
+#include <system_error>
 
 #include "json/input.hpp"
 #include "text/file.hpp"
+#include "text/number.hpp"
 #include "trace/text.hpp"
 
 namespace lexican::describe {
@@ -77,11 +80,25 @@ std::string shown_bytes(const Bytes& bytes) {
   return hex_bytes(bytes.data(), shown) + (shown < bytes.size() ? " ..." : "");
 }
 
-/// Returns a value whose type is unknown, or a text.
-std::string guessed(const Bytes& bytes, bool is_text) {
-  const std::string text = is_text || bytes.size() > 4 ? visible_text(bytes) : std::string();
-  if (!text.empty() || (is_text && bytes.empty())) {
-    return '"' + text.substr(0, most_shown) + (text.size() > most_shown ? "\" ..." : "\"");
+std::string quoted(const std::string& text) {
+  return '"' + text.substr(0, most_shown) + (text.size() > most_shown ? "\" ..." : "\"");
+}
+
+/// Returns a VISIBLE_STRING.
+std::string shown_text(const Bytes& bytes) {
+  const std::string text = visible_text(bytes);
+  const bool is_empty = std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t byte) { return byte == 0; });
+  return text.empty() && !is_empty ? shown_bytes(bytes) : quoted(text);
+}
+
+/// Returns a value whose type is unknown.
+std::string guessed(const Bytes& bytes) {
+  if (bytes.empty()) {
+    return "no data";
+  }
+  const std::string text = bytes.size() > 4 ? visible_text(bytes) : std::string();
+  if (!text.empty()) {
+    return quoted(text);
   }
   std::uint64_t number = 0;
   for (std::size_t n = 0; n < bytes.size() && n < sizeof number; ++n) {
@@ -91,7 +108,66 @@ std::string guessed(const Bytes& bytes, bool is_text) {
   return is_number ? fmt::format("{:0{}X}h", number, 2 * bytes.size()) : shown_bytes(bytes);
 }
 
-std::string_view unit_of(const codict::Entry& entry) { return codict::text_in(entry.unit->texts.labels, "en"); }
+/// Returns the text of a key that no standard defines; empty if the entry does not have it.
+std::string_view other_key(const codict::Entry& entry, std::string_view name) {
+  const auto found = std::find_if(entry.others.begin(), entry.others.end(), [=](const codict::OpaquePart& part) {
+    return codict::equal_ignoring_case(part.name, name);
+  });
+  return found != entry.others.end() ? std::string_view(found->text.text) : std::string_view();
+}
+
+/// Returns a number of a description, such as a factor; nothing if the text is not a finite number.
+std::optional<double> real_of(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+  return is_number ? std::optional(number) : std::nullopt;
+}
+
+/// Applies the factor and adds the unit: those of an XDD, else the keys Factor and Unit that python-canopen reads from
+/// an EDS. A number whose factor is not valid keeps its raw value, without the unit of the scaled one.
+std::string physical(const codict::Entry& entry, const std::string& raw) {
+  const bool is_xdd = entry.unit->is_given;
+  const std::string_view unit = is_xdd ? codict::text_in(entry.unit->texts.labels, "en") : other_key(entry, "Unit");
+  const auto or_default = [](std::string_view text, double otherwise) {
+    return text.empty() ? std::optional(otherwise) : real_of(text);
+  };
+  const std::optional<double> number = real_of(raw);
+  const std::optional<double> offset = or_default(entry.offset->text, 0);
+  const std::optional<double> scale = or_default(entry.multiplier->text, 1);
+  const std::optional<double> factor = or_default(is_xdd ? entry.unit->multiplier.text : other_key(entry, "Factor"), 1);
+  if (!number || !offset || !scale || !factor || *scale * *factor == 0) {
+    return raw;
+  }
+  constexpr int digits = 12;  // hides the rounding of 3 * 0.1
+  const bool is_raw = *offset == 0 && *scale * *factor == 1;
+  return (is_raw ? raw : fmt::format("{:.{}g}", (*number + *offset) * *scale * *factor, digits)) +
+         (unit.empty() ? "" : fmt::format(" {}", unit));
+}
+
+/// Returns whether an object of the communication profile is a COB-ID, a mapping, an identity, a code or flags, which
+/// are written in hexadecimal digits. [301:7.5.2]
+bool is_hexadecimal(std::uint16_t index, std::uint8_t sub_index) {
+  switch (index) {
+    case 0x1000:
+    case 0x1001:
+    case 0x1002:
+    case 0x1005:
+    case 0x1012:
+    case 0x1014: return true;
+    case 0x1003:
+    case 0x1010:
+    case 0x1011:
+    case 0x1016:
+    case 0x1018:
+    case 0x1028: return sub_index != 0;
+    default: break;
+  }
+  const bool is_sdo = index >= 0x1200 && index <= 0x12FF && (sub_index == 1 || sub_index == 2);
+  const bool is_pdo = index >= 0x1400 && index <= 0x1BFF;
+  const bool is_mapping = (index & 0x0200U) != 0;
+  return is_sdo || (is_pdo && (is_mapping ? sub_index != 0 : sub_index == 1));
+}
 
 /// Returns the name of a value of an enumeration; empty if it has none.
 std::string_view name_of_value(const codict::Device& device, const codict::Entry& entry, const std::string& shown) {
@@ -125,10 +201,12 @@ std::string Description::name_of(std::uint16_t index, std::uint8_t sub_index) co
     return std::string(standard_name(index, sub_index));
   }
   const codict::Entry* const entry = device_->find(index, sub_index);
-  if (entry == nullptr || static_cast<const codict::Entry*>(object) == entry || entry->name.text == object->name.text) {
-    return object->name.text;
+  const std::string name = object->name.text.empty() ? std::string(standard_name(index, sub_index)) : object->name.text;
+  if (entry == nullptr || static_cast<const codict::Entry*>(object) == entry || entry->name.text.empty() ||
+      entry->name.text == name) {
+    return name;
   }
-  return object->name.text + ", " + entry->name.text;
+  return name.empty() ? entry->name.text : name + ", " + entry->name.text;
 }
 
 std::string Description::object(std::uint16_t index, std::uint8_t sub_index) const {
@@ -160,18 +238,25 @@ std::optional<ValueType> Description::type_of(std::uint16_t index, std::uint8_t 
 
 std::string Description::show(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) const {
   const std::optional<ValueType> type = type_of(index, sub_index);
-  const Shown shown = type && !bytes.empty() ? lexican::show(*type, bytes) : Shown{{}, "unknown"};
-  const bool is_text = type && type->kind == ValueType::Kind::text;
-  if (!shown.fault.empty() || is_text) {
-    return guessed(bytes, is_text);
+  if (type && type->kind == ValueType::Kind::text) {
+    return shown_text(bytes);
   }
-  if (type->kind == ValueType::Kind::bytes) {
+  if (type && type->kind == ValueType::Kind::bytes && !bytes.empty()) {
     return shown_bytes(bytes);
+  }
+  const Shown shown = type && !bytes.empty() ? lexican::show(*type, bytes) : Shown{{}, "unknown"};
+  if (!shown.fault.empty()) {
+    const char* const plural = bytes.size() == 1 ? "" : "s";
+    const bool is_wrong_length = type && !bytes.empty();
+    return guessed(bytes) +
+           (is_wrong_length ? fmt::format(" ({} byte{} instead of {})", bytes.size(), plural, type->size) : "");
+  }
+  if (type->kind == ValueType::Kind::unsigned_integer && is_hexadecimal(index, sub_index)) {
+    return guessed(bytes);
   }
   const codict::Entry& entry = *device_->find(index, sub_index);
   const std::string_view name = name_of_value(*device_, entry, shown.text);
-  const std::string_view unit = unit_of(entry);
-  return shown.text + (unit.empty() ? "" : fmt::format(" {}", unit)) + (name.empty() ? "" : fmt::format(" ({})", name));
+  return physical(entry, shown.text) + (name.empty() ? "" : fmt::format(" ({})", name));
 }
 
 std::optional<Description> read_description(const std::string& path, std::string& why) {
@@ -189,14 +274,19 @@ bool Network::add(const std::string& argument, std::string& why) {
   const std::size_t equals = argument.find('=');
   unsigned node = 0;
   const char* const end = argument.data() + std::min(equals, argument.size());
-  const bool has_node =
-      equals != std::string::npos && std::from_chars(argument.data(), end, node).ptr == end && node != 0;
-  if (has_node && node > 127) {
+  const auto [stop, error] = std::from_chars(argument.data(), end, node);
+  const bool has_node = equals != std::string::npos && stop == end && error != std::errc::invalid_argument;
+  if (has_node && (error != std::errc() || node == 0 || node > 127)) {
     why = argument + ": node-IDs are 1 to 127";
     return false;
   }
   const std::string path = has_node ? argument.substr(equals + 1) : argument;
-  if (std::filesystem::is_directory(path)) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    if (has_node) {
+      why = argument + ": a directory describes several nodes; name one file, or leave out the node-ID";
+      return false;
+    }
     return add_directory(path, why);
   }
   return add_file(static_cast<std::uint8_t>(node), path, why);
@@ -204,22 +294,35 @@ bool Network::add(const std::string& argument, std::string& why) {
 
 bool Network::add_file(std::uint8_t node, const std::string& path, std::string& why) {
   std::optional<Description> description = read_description(path, why);
-  if (description) {
-    const std::uint8_t commissioned = description->device()->commissioning.node_id.value;
-    nodes_[node != 0 ? node : commissioned <= 127 ? commissioned : std::uint8_t{0}] = std::move(*description);
+  if (!description) {
+    return false;
   }
-  return description.has_value();
+  const std::uint8_t commissioned = description->device()->commissioning.node_id.value;
+  const std::uint8_t described = node != 0 ? node : commissioned <= 127 ? commissioned : std::uint8_t{0};
+  if (described == 0 && nodes_.count(0) != 0) {
+    why = path + ": a second description without node-ID; name the node with NODE=FILE";
+    return false;
+  }
+  nodes_[described] = std::move(*description);
+  return true;
 }
 
 bool Network::add_directory(const std::string& path, std::string& why) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+  std::error_code error;
+  std::filesystem::directory_iterator end;
+  for (std::filesystem::directory_iterator at(path, error); !error && at != end; at.increment(error)) {
+    const auto& entry = *at;
     std::string extension = entry.path().extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](char c) { return static_cast<char>(c | 0x20); });
     if (extension == ".eds" || extension == ".dcf" || extension == ".xdd" || extension == ".xdc") {
       files.push_back(entry.path());
     }
+  }
+  if (error) {
+    why = path + ": " + error.message();
+    return false;
   }
   std::sort(files.begin(), files.end());
   if (files.empty()) {

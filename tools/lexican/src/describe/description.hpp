@@ -37,7 +37,8 @@ class Description {
   std::string object(std::uint16_t index, std::uint8_t sub_index) const;
   /// Returns the type of an entry, nothing if it is unknown or not one of values.hpp.
   std::optional<ValueType> type_of(std::uint16_t index, std::uint8_t sub_index) const;
-  /// Returns a value in words: a number with the name of the value and the unit, a text in quotes, or bytes.
+  /// Returns a value in words: a number with unit and name ("1.5 A", "3 (profile velocity)"), a COB-ID and the like in
+  /// hexadecimal digits, a text in quotes, or bytes.
   std::string show(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) const;
 
  private:
@@ -52,7 +53,8 @@ std::optional<Description> read_description(const std::string& path, std::string
 class Network {
  public:
   /// Adds what an option --eds names: "FILE", "NODE=FILE" or a directory. A file without node-ID describes the node
-  /// that its commissioning names, else every node that no other file describes. \retval false  \a why says why
+  /// that its commissioning names, else every node that no other file describes; there can be one such file.
+  /// \retval false  \a why says why
   bool add(const std::string& argument, std::string& why);
   /// Returns the description of a node; without a file that of CiA 301.
   const Description& of(std::uint8_t node) const;

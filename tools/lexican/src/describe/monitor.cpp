@@ -14,13 +14,22 @@ namespace {
 
 constexpr std::uint32_t not_valid = 0x80000000;  // bit of a COB-ID
 constexpr std::size_t most_pdos = 16384;
-constexpr std::uint16_t no_state = 0;
+constexpr std::uint32_t extended = 0x20000000;  // bit of a COB-ID
 constexpr std::uint16_t known_state = 0x100;
+constexpr unsigned most_mapped = 64;  // values above are those of multiplexed PDOs
+constexpr Micros error_repetition = 1'000'000;
 
 const trace::Names no_names;
 
 std::uint32_t key(std::uint8_t node, bool is_transmit, std::uint16_t number) {
-  return static_cast<std::uint32_t>(node) << 16 | (is_transmit ? 0x8000U : 0U) | number;
+  return (is_transmit ? 0U : 1U << 24) | static_cast<std::uint32_t>(node) << 16 | number;
+}
+
+/// Returns whether CiA 301 excludes an identifier for PDOs. [301:7.3.5]
+bool is_restricted(std::uint32_t cob_id) {
+  const std::uint32_t id = cob_id & ~extended;
+  return (cob_id & extended) == 0 && (id < 0x080 || (id > 0x100 && id <= 0x180) || (id > 0x580 && id <= 0x5FF) ||
+                                      (id > 0x600 && id <= 0x67F) || id >= 0x6E0);
 }
 
 std::uint64_t number_in(const std::uint8_t* data, unsigned begin, unsigned bits) {
@@ -49,10 +58,10 @@ std::uint32_t value_of(const codict::Entry* entry, std::uint8_t node, std::uint3
   return value.is_integer() ? static_cast<std::uint32_t>(value.integer_for(node).bits()) : otherwise;
 }
 
-Service service_of(const CO_IF_FRM& frame) {
-  const std::uint32_t id = frame.Identifier;
+Service service_of(std::uint32_t identifier) {
+  const std::uint32_t id = identifier & CO_IF_FRM_ID;
   const unsigned function = id >> 7;
-  if ((id & CO_IF_FRM_EXT) != 0) {
+  if ((identifier & CO_IF_FRM_EXT) != 0) {
     return Service::other;
   }
   if (id == 0) {
@@ -89,10 +98,11 @@ struct ErrorBit {
 
 /// Classes of the identifier, and details in data byte 1, of an error frame. [linux/can/error.h]
 constexpr ErrorBit error_classes[] = {
-    {0x040, "bus-off"},           {0x100, "restarted"},        {0x020, "nobody acknowledges"},
-    {0x001, "transmit time-out"}, {0x002, "lost arbitration"}, {0x010, "transceiver fault"},
+    {0x040, "bus-off"},           {0x100, "controller restarted"}, {0x020, "nobody acknowledges"},
+    {0x001, "transmit time-out"}, {0x002, "lost arbitration"},     {0x010, "transceiver fault"},
     {0x088, "bus error"},
 };
+constexpr std::uint32_t controller_problem = 0x004;
 constexpr ErrorBit controller_states[] = {
     {0x01, "receive queue of the controller overflowed"},
     {0x02, "transmit queue of the controller overflowed"},
@@ -103,28 +113,51 @@ constexpr ErrorBit controller_states[] = {
 
 std::string error_text(const CO_IF_FRM& frame) {
   std::string text;
-  const auto add = [&](const char* what) { text += (text.empty() ? "" : ", ") + std::string(what); };
+  const auto add = [&](const char* words) { text += (text.empty() ? "" : ", ") + std::string(words); };
   for (const ErrorBit& row : error_classes) {
     if ((frame.Identifier & row.mask) != 0) {
       add(row.text);
     }
   }
+  const bool is_state = (frame.Identifier & controller_problem) != 0;
   for (const ErrorBit& row : controller_states) {
-    if ((frame.Identifier & 0x004) != 0 && (frame.Data[1] & row.mask) != 0) {
+    if (is_state && (frame.Data[1] & row.mask) != 0) {
       add(row.text);
     }
   }
-  return text.empty() ? "unknown error" : text;
+  return !text.empty() ? text : is_state ? "controller problem, unspecified" : "unknown error";
 }
 
-bool is_known(const CO_IF_FRM& frame, Service service) {
-  switch (service) {
-    case Service::nmt: return frame.DLC == 2;
-    case Service::sdo:
-    case Service::emcy: return frame.DLC == 8;
-    case Service::state: return frame.DLC == 1;
-    default: return true;
-  }
+/// Returns whether an error frame reports only that an error has ended.
+bool is_recovery(const CO_IF_FRM& frame) {
+  const std::uint32_t classes = frame.Identifier & 0x1FFU;
+  return classes == 0x100 || (classes == controller_problem && frame.Data[1] == 0x40);
+}
+
+/// Length of a message.
+struct Length {
+  Service service;
+  const char* name;
+  unsigned bytes;
+  const char* shown;
+};
+
+constexpr Length lengths[] = {
+    {Service::nmt, "NMT", 2, "2"},   {Service::state, "heartbeat", 1, "1"}, {Service::time, "TIME", 6, "6"},
+    {Service::emcy, "EMCY", 8, "8"}, {Service::sdo, "SDO", 8, "8"},         {Service::lss, "LSS", 8, "8"},
+};
+constexpr Length sync_length = {Service::sync, "SYNC", 1, "0 or 1"};
+
+/// Returns what is wrong with the length of a message; empty if it is right.
+std::string wrong_length(Service service, const CO_IF_FRM& frame) {
+  const auto* row = std::find_if(std::begin(lengths), std::end(lengths),
+                                 [=](const Length& length) { return length.service == service; });
+  row = service == Service::sync ? &sync_length : row;
+  const bool is_right =
+      row == std::end(lengths) || frame.DLC == row->bytes || (service == Service::sync && frame.DLC == 0);
+  return is_right ? std::string()
+                  : fmt::format("{} with {} byte{} instead of {}: {}", row->name, frame.DLC, frame.DLC == 1 ? "" : "s",
+                                row->shown, host_bus::to_text(frame));
 }
 
 }  // namespace
@@ -160,29 +193,47 @@ void Monitor::describe_pdos(std::uint8_t node) {
 }
 
 void Monitor::set_cob_id(PdoKey at, Pdo& pdo, std::uint32_t cob_id) {
-  const auto old = by_cob_id_.find(pdo.cob_id);
-  if (old != by_cob_id_.end() && old->second == at) {
-    by_cob_id_.erase(old);
-  }
-  pdo.cob_id = (cob_id & not_valid) != 0 ? not_valid : cob_id & (CO_IF_FRM_ID | 0x20000000U);
-  if (pdo.cob_id != not_valid) {
-    by_cob_id_[pdo.cob_id] = at;
+  by_cob_id_.erase({pdo.cob_id, at});
+  pdo.cob_id = cob_id & (extended | ((cob_id & extended) != 0 ? CO_IF_FRM_ID : 0x7FFU));
+  if ((cob_id & not_valid) != 0 || is_restricted(pdo.cob_id)) {
+    pdo.cob_id = not_valid;
+  } else {
+    by_cob_id_.emplace(pdo.cob_id, at);
   }
 }
 
-void Monitor::process(const host_bus::Entry& entry) {
+/// Returns the PDO of a frame: the TPDO, because it names the sender, else the first RPDO. Null: no known PDO.
+const Monitor::Pdo* Monitor::pdo_of(const CO_IF_FRM& frame) const {
+  const std::uint32_t cob_id =
+      (frame.Identifier & CO_IF_FRM_ID) | ((frame.Identifier & CO_IF_FRM_EXT) != 0 ? extended : 0U);
+  const auto found = by_cob_id_.lower_bound({cob_id, 0});
+  return found != by_cob_id_.end() && found->first == cob_id ? &pdos_.at(found->second) : nullptr;
+}
+
+void Monitor::process(const host_bus::Entry& received) {
+  host_bus::Entry entry = received;
+  entry.frame.DLC = std::min<std::uint8_t>(entry.frame.DLC, 8);  // 9 to 15 stand for 8 bytes
   count(entry);
   if (open_servers_ > 0) {
     expire(entry.time);
   }
   Event event;
   event.time = entry.time;
-  if ((entry.frame.Identifier & CO_IF_FRM_ERROR) != 0) {
+  const std::uint32_t id = entry.frame.Identifier;
+  if ((id & CO_IF_FRM_ERROR) != 0) {
     error(event, entry.frame);
-    show_(event);
+  } else if (const Pdo* const pdo = pdo_of(entry.frame)) {
+    event.service = Service::pdo;
+    event.node = pdo->node;
+    event.text = show_pdo(*pdo, entry.frame);
   } else {
-    classic(entry);
+    const bool is_sdo = (id & (CO_IF_FRM_EXT | CO_IF_FRM_RTR)) == 0 && service_of(id) == Service::sdo;
+    if (is_sdo && sdo(entry)) {
+      return;
+    }
+    message(event, entry.frame);
   }
+  show_(event);
 }
 
 void Monitor::count(const host_bus::Entry& entry) {
@@ -204,69 +255,79 @@ void Monitor::count(const host_bus::Entry& entry) {
   }
 }
 
-void Monitor::classic(const host_bus::Entry& entry) {
-  const CO_IF_FRM& frame = entry.frame;
-  Event event;
-  event.time = entry.time;
-  const std::uint32_t wide = (frame.Identifier & CO_IF_FRM_EXT) != 0 ? 0x20000000U : 0U;
-  const auto found = by_cob_id_.find((frame.Identifier & CO_IF_FRM_ID) | wide);
-  const auto pdo = found != by_cob_id_.end() ? pdos_.find(found->second) : pdos_.end();
-  if (pdo != pdos_.end()) {
-    event.service = Service::pdo;
-    event.node = pdo->second.node;
-    event.text = show_pdo(pdo->second, frame);
-    show_(event);
-    return;
-  }
-  event.service = service_of(frame);
-  const bool has_node = event.service == Service::emcy || event.service == Service::sdo ||
-                        event.service == Service::state || event.service == Service::pdo;
-  event.node = static_cast<std::uint8_t>(has_node ? frame.Identifier & 0x7FU : 0U);
+/// Describes a message of the pre-defined connection set.
+void Monitor::message(Event& event, const CO_IF_FRM& frame) {
   const bool is_remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
-  if (event.service == Service::sdo && !is_remote && sdo(entry)) {
-    return;
-  }
-  if (event.service == Service::state) {
-    state(event, frame);
-  } else {
-    event.text = decoder_.decode(frame).text;
-    if (event.service == Service::pdo && !is_remote && frame.DLC > 0) {
-      event.text += ' ' + hex_bytes(frame.Data, std::min<std::size_t>(frame.DLC, 8));
+  event.service = service_of(frame.Identifier);
+  const Service service = event.service;
+  const bool has_node =
+      service == Service::emcy || service == Service::sdo || service == Service::state || service == Service::pdo;
+  event.node = static_cast<std::uint8_t>(has_node ? frame.Identifier & 0x7FU : 0U);
+  if (!is_remote) {
+    event.text = wrong_length(service, frame);
+    if (!event.text.empty()) {
+      return;
     }
   }
-  event.is_repeated = event.is_repeated || (event.service == Service::sync && std::exchange(is_synchronised_, true));
-  event.is_fault = event.service == Service::emcy && (frame.Data[0] != 0 || frame.Data[1] != 0);
-  event.service = is_known(frame, event.service) || is_remote ? event.service : Service::other;
-  show_(event);
+  if (service == Service::state) {
+    state(event, frame);
+    return;
+  }
+  event.text = decoder_.decode(frame).text;
+  if (is_remote) {
+    return;
+  }
+  if ((service == Service::pdo || service == Service::safety) && frame.DLC > 0) {
+    event.text += ' ' + hex_bytes(frame.Data, frame.DLC);
+  }
+  if (service == Service::nmt) {
+    event.node = static_cast<std::uint8_t>(frame.Data[1] <= 127 ? frame.Data[1] : 0U);
+  }
+  if (service == Service::emcy) {
+    event.is_fault = frame.Data[0] != 0 || frame.Data[1] != 0;
+    const bool has_more = std::any_of(frame.Data + 3, frame.Data + 8, [](std::uint8_t byte) { return byte != 0; });
+    event.text += has_more ? ", manufacturer-specific " + hex_bytes(frame.Data + 3, 5) : "";
+  }
+  event.is_repeated = service == Service::sync && std::exchange(is_synchronised_, true);
 }
 
+/// Describes boot-up, heartbeat and node guarding. A node answers a remote frame with its state and a toggle bit.
 void Monitor::state(Event& event, const CO_IF_FRM& frame) {
+  ErrorControl& last = error_control_[event.node];
   if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
-    event.text = "guarding request";
-    event.is_repeated = states_[event.node] != no_state;
+    event.text = "node guarding request";
+    event.is_repeated = last.state != 0 && !last.is_guarding_request;
+    last.is_guarding_request = true;
     return;
   }
   CO_IF_FRM plain = frame;
-  const bool is_toggled = (frame.Data[0] & 0x80U) != 0;  // node guarding
   plain.Data[0] = static_cast<std::uint8_t>(frame.Data[0] & 0x7FU);
-  event.text = is_toggled && frame.DLC == 1 ? decoder_.decode(plain).text + " (guarding)" : decoder_.decode(frame).text;
+  const bool is_toggled = frame.Data[0] != plain.Data[0];
+  const bool is_guarding = is_toggled || std::exchange(last.is_guarding_request, false);
+  const std::string text = decoder_.decode(plain).text;
+  constexpr std::string_view heartbeat = "heartbeat";
+  const bool is_boot_up = text.substr(0, heartbeat.size()) != heartbeat;
+  event.text = is_guarding && !is_boot_up ? "node guarding" + text.substr(heartbeat.size()) : text;
+  event.text += is_guarding && !(is_boot_up && !is_toggled) ? fmt::format(", toggle {}", is_toggled ? 1 : 0) : "";
   const auto state = static_cast<std::uint16_t>(known_state | plain.Data[0]);
-  event.is_repeated = frame.DLC == 1 && states_[event.node] == state && plain.Data[0] != 0;
-  states_[event.node] = frame.DLC == 1 ? state : states_[event.node];
+  event.is_repeated = last.state == state && !is_boot_up;
+  last = {state, false};
 }
 
 void Monitor::error(Event& event, const CO_IF_FRM& frame) {
   event.service = Service::error;
-  event.is_fault = true;
+  event.is_fault = !is_recovery(frame);
   event.text = "bus: " + error_text(frame);
-  event.is_repeated = event.text == last_error_;
+  const bool is_soon = event.time < last_error_time_ || event.time - last_error_time_ < error_repetition;
+  event.is_repeated = is_soon && event.text == last_error_;
   last_error_ = event.text;
-  if ((frame.Identifier & 0x200U) != 0 || (frame.Identifier & 0x004U) != 0) {
+  last_error_time_ = event.time;
+  if ((frame.Identifier & (0x200U | controller_problem)) != 0) {
     event.text += fmt::format(" (TEC {}, REC {})", frame.Data[6], frame.Data[7]);
   }
 }
 
-/// \retval false  the frame is not of an SDO transfer
+/// \retval false  the frame does not belong to a transfer
 bool Monitor::sdo(const host_bus::Entry& entry) {
   const CO_IF_FRM& frame = entry.frame;
   if (frame.DLC != 8) {
@@ -277,18 +338,21 @@ bool Monitor::sdo(const host_bus::Entry& entry) {
   const bool was_active = server.is_active();
   const std::optional<SdoTransfer> transfer =
       server.follow((frame.Identifier & 0x780U) == 0x600, frame.Data, entry.time);
-  open_servers_ += server.is_active() ? (was_active ? 0U : 1U) : (was_active ? ~0U : 0U);
+  const bool was_followed = server.was_followed();
+  open_servers_ += (server.is_active() ? 1U : 0U) - (was_active ? 1U : 0U);
   if (transfer) {
-    report(node, *transfer);
+    report(node, *transfer, entry.time);
   }
-  return transfer.has_value() || server.is_active() || was_active;
+  return was_followed;
 }
 
 void Monitor::expire(Micros now) {
-  for (std::uint8_t node = 1; node < 128 && open_servers_ > 0; ++node) {
+  unsigned open = open_servers_;
+  for (std::uint8_t node = 1; node < 128 && open > 0; ++node) {
+    open -= servers_[node].is_active() ? 1U : 0U;
     if (const std::optional<SdoTransfer> transfer = servers_[node].expire(now)) {
       --open_servers_;
-      report(node, *transfer);
+      report(node, *transfer, now);
     }
   }
 }
@@ -296,37 +360,45 @@ void Monitor::expire(Micros now) {
 void Monitor::finish() {
   for (std::uint8_t node = 1; node < 128; ++node) {
     if (const std::optional<SdoTransfer> transfer = servers_[node].close()) {
-      report(node, *transfer);
+      report(node, *transfer, statistics_.last);
     }
   }
   open_servers_ = 0;
 }
 
-void Monitor::report(std::uint8_t node, const SdoTransfer& transfer) {
+/// Returns the bytes of a transfer without those that, for the type of the object, an expedited transfer without size
+/// does not use.
+Bytes Monitor::value_in(const Description& description, const SdoTransfer& transfer) {
+  const std::optional<ValueType> type = description.type_of(transfer.index, transfer.sub_index);
+  const bool is_shorter = !transfer.has_size && type && type->size != 0 && type->size < transfer.data.size();
+  return {transfer.data.begin(), is_shorter ? transfer.data.begin() + type->size : transfer.data.end()};
+}
+
+void Monitor::report(std::uint8_t node, const SdoTransfer& transfer, Micros time) {
   const Description& description = network_.of(node);
-  std::string text =
-      (transfer.is_download ? "write " : "read ") + description.object(transfer.index, transfer.sub_index);
+  const std::string reason =
+      ": " + trace::abort_code(transfer.abort_code) + ' ' + trace::abort_meaning(transfer.abort_code);
+  std::string text = (transfer.is_aborted_only ? "SDO transfer of "
+                      : transfer.is_download   ? "write "
+                                               : "read ") +
+                     description.object(transfer.index, transfer.sub_index);
   switch (transfer.end) {
     case SdoTransfer::End::done:
-      text += " = ";
-      text += transfer.data.size() == transfer.size
-                  ? description.show(transfer.index, transfer.sub_index, transfer.data)
-                  : fmt::format("{} bytes", transfer.size);
-      if (transfer.size > 64 && transfer.data.size() == transfer.size) {
-        text += fmt::format(" ({} bytes)", transfer.size);
+      if (transfer.data.size() != transfer.size) {
+        text += fmt::format(", {} bytes", transfer.size);
+        break;
       }
+      text += " = " + description.show(transfer.index, transfer.sub_index, value_in(description, transfer));
+      text += transfer.size > 64 ? fmt::format(" ({} bytes)", transfer.size) : "";
       break;
     case SdoTransfer::End::refused:
-      text += " refused: " + trace::abort_code(transfer.abort_code) + ' ' + trace::abort_meaning(transfer.abort_code);
+      text += (transfer.is_aborted_only ? " aborted by the server" : " refused") + reason;
       break;
-    case SdoTransfer::End::cancelled:
-      text += " cancelled by the client: " + trace::abort_code(transfer.abort_code) + ' ' +
-              trace::abort_meaning(transfer.abort_code);
-      break;
-    case SdoTransfer::End::unanswered: text += transfer.size == 0 ? ": no answer" : ": not completed"; break;
+    case SdoTransfer::End::cancelled: text += " aborted by the client" + reason; break;
+    case SdoTransfer::End::unanswered: text += transfer.is_answered ? ": not completed" : ": no answer"; break;
   }
   Event event;
-  event.time = transfer.time;
+  event.time = time;
   event.service = Service::sdo;
   event.node = node;
   event.text = std::move(text);
@@ -360,8 +432,8 @@ void Monitor::learn(std::uint8_t node, const SdoTransfer& transfer) {
   if (!is_mapping && transfer.sub_index == 1) {
     set_cob_id(at, pdo, value);
   } else if (is_mapping && transfer.sub_index == 0) {
-    pdo.count = static_cast<std::uint8_t>(value);
-  } else if (is_mapping && transfer.sub_index <= 64) {
+    pdo.count = static_cast<std::uint8_t>(value <= most_mapped ? value : 0U);
+  } else if (is_mapping && transfer.sub_index <= most_mapped) {
     pdo.entries.resize(std::max<std::size_t>(pdo.entries.size(), transfer.sub_index));
     pdo.entries[transfer.sub_index - 1U] = value;
   }
@@ -372,28 +444,34 @@ std::string Monitor::show_pdo(const Pdo& pdo, const CO_IF_FRM& frame) const {
   if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
     return text + " requested";
   }
-  const unsigned bits = 8U * std::min<unsigned>(frame.DLC, 8);
+  const unsigned bits = 8U * frame.DLC;
   const Description& description = network_.of(pdo.node);
+  const char* separator = " ";
   unsigned position = 0;
-  const std::size_t count = std::min<std::size_t>(pdo.count, pdo.entries.size());
-  for (std::size_t n = 0; n < count; ++n) {
-    const auto index = static_cast<std::uint16_t>(pdo.entries[n] >> 16);
-    const auto sub_index = static_cast<std::uint8_t>(pdo.entries[n] >> 8);
-    const unsigned length = pdo.entries[n] & 0xFFU;
-    if (length == 0 || position + length > bits) {
-      text += fmt::format(", too short for {}", description.object(index, sub_index));
-      break;
+  bool is_mapping_known = pdo.count > 0;
+  for (std::size_t n = 0; n < pdo.count && is_mapping_known; ++n) {
+    const std::uint32_t entry = n < pdo.entries.size() ? pdo.entries[n] : 0U;
+    const auto index = static_cast<std::uint16_t>(entry >> 16);
+    const auto sub_index = static_cast<std::uint8_t>(entry >> 8);
+    const unsigned length = entry & 0xFFU;
+    is_mapping_known = length != 0;
+    if (position + length > bits) {
+      return text + fmt::format("{}too short for {}, {}", separator, description.object(index, sub_index),
+                                frame.DLC == 0 ? "no data" : "whole data: " + hex_bytes(frame.Data, frame.DLC));
     }
     const bool is_dummy = index < 0x20;
     if (!is_dummy) {
       const std::string name = description.name_of(index, sub_index);
-      text += (position == 0 ? " " : ", ") + (name.empty() ? description.object(index, sub_index) : name) + " = " +
+      text += separator + (name.empty() ? description.object(index, sub_index) : name) + " = " +
               description.show(index, sub_index, bytes_of(number_in(frame.Data, position, length), length));
+      separator = ", ";
     }
     position += length;
   }
-  if (position == 0 && bits > 0) {
-    text += ' ' + hex_bytes(frame.Data, bits / 8);
+  const std::size_t shown = (position + 7) / 8;
+  if (shown < frame.DLC) {
+    text += separator + std::string(is_mapping_known ? "not mapped: " : "") +
+            hex_bytes(frame.Data + shown, frame.DLC - shown);
   }
   return text;
 }

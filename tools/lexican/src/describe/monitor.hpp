@@ -7,8 +7,9 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "describe/description.hpp"
@@ -24,12 +25,12 @@ inline constexpr const char* service_names[] = {"nmt", "state", "emcy",   "sync"
                                                 "sdo", "lss",   "safety", "error", "other"};
 
 struct Event {
-  Micros time = 0;
+  Micros time = 0;  ///< of the frame that is shown, or with which a transfer ended
   Service service = Service::other;
-  std::uint8_t node = 0;  ///< node-ID; 0: none, or all
+  std::uint8_t node = 0;  ///< node-ID, of NMT that of the addressed node; 0: none, or all
   std::string text;
   bool is_fault = false;     ///< EMCY, an SDO transfer that failed, a bus error
-  bool is_repeated = false;  ///< a heartbeat without a change, a further SYNC, the same bus error again
+  bool is_repeated = false;  ///< a heartbeat without a change, a further SYNC, the same bus error within a second
   const SdoTransfer* sdo = nullptr;
 };
 
@@ -79,12 +80,20 @@ class Monitor {
     std::vector<std::uint32_t> entries;  ///< of the mapping parameter, sub-indices 1 …
     std::uint8_t count = 0;              ///< sub-index 0
   };
-  using PdoKey = std::uint32_t;
+  using PdoKey = std::uint32_t;  ///< of TPDOs lower than of RPDOs
+
+  /// Last messages of error control of a node.
+  struct ErrorControl {
+    std::uint16_t state = 0;           ///< known_state with the state; 0: unknown
+    bool is_guarding_request = false;  ///< the last message was a remote frame
+  };
 
   void count(const host_bus::Entry& entry);
-  void classic(const host_bus::Entry& entry);
+  void message(Event& event, const CO_IF_FRM& frame);
+  const Pdo* pdo_of(const CO_IF_FRM& frame) const;
   bool sdo(const host_bus::Entry& entry);
-  void report(std::uint8_t node, const SdoTransfer& transfer);
+  void report(std::uint8_t node, const SdoTransfer& transfer, Micros time);
+  static Bytes value_in(const Description& description, const SdoTransfer& transfer);
   void learn(std::uint8_t node, const SdoTransfer& transfer);
   void describe_pdos(std::uint8_t node);
   void set_cob_id(PdoKey key, Pdo& pdo, std::uint32_t cob_id);
@@ -97,12 +106,13 @@ class Monitor {
   Statistics statistics_;
   trace::Decoder decoder_;
   std::array<SdoFollower, 128> servers_{};
-  unsigned open_servers_ = 0;                ///< with a transfer that has not ended
-  std::array<std::uint16_t, 128> states_{};  ///< of error control; 0: unknown
+  unsigned open_servers_ = 0;  ///< with a transfer that has not ended
+  std::array<ErrorControl, 128> error_control_{};
   std::map<PdoKey, Pdo> pdos_;
-  std::unordered_map<std::uint32_t, PdoKey> by_cob_id_;
-  bool is_synchronised_ = false;  ///< a SYNC was seen
-  std::string last_error_;
+  std::set<std::pair<std::uint32_t, PdoKey>> by_cob_id_;  ///< valid COB-IDs, which several PDOs can share
+  bool is_synchronised_ = false;                          ///< a SYNC was seen
+  std::string last_error_;                                ///< without the counters
+  Micros last_error_time_ = 0;
 };
 
 }  // namespace lexican::describe

@@ -19,16 +19,20 @@ struct SdoTransfer {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
   bool is_download = false;
+  bool is_aborted_only = false;  ///< only the abort was seen: is_download is not known
+  bool is_answered = false;      ///< the server has sent a frame of the transfer
   End end = End::done;           ///< refused: aborted by the server; cancelled: aborted by the client
   std::uint32_t abort_code = 0;  ///< of refused and cancelled
   Micros begin = 0;
   Micros time = 0;                 ///< of the last frame
+  bool has_size = true;            ///< false: expedited without size, `data` has 4 bytes of which some may be unused
   std::uint64_t size = 0;          ///< bytes transferred
-  std::vector<std::uint8_t> data;  ///< the first of them, at most SdoFollower::most_data
+  std::vector<std::uint8_t> data;  ///< the first of them, at most SdoFollower::most_data; fewer, too, if
+                                   ///< a segment was not recorded
 };
 
 /// Follows the transfers of one server: expedited, segmented and block transfers. Its memory is bounded. A frame that
-/// fits no transfer is ignored.
+/// does not belong to the open transfer is ignored, such as a late answer to an earlier request.
 class SdoFollower {
  public:
   static constexpr std::size_t most_data = 4096;    ///< bytes
@@ -42,6 +46,8 @@ class SdoFollower {
   /// Ends a transfer at the end of a log.
   std::optional<SdoTransfer> close();
   bool is_active() const { return phase_ != Phase::idle; }
+  /// Returns false if the last frame was ignored.
+  bool was_followed() const { return was_followed_; }
 
  private:
   enum class Phase : std::uint8_t {
@@ -51,20 +57,32 @@ class SdoFollower {
     server_segments,  ///< of a block upload
   };
 
+  std::optional<SdoTransfer> abort(bool is_request, const std::uint8_t* data, Micros time);
   std::optional<SdoTransfer> request(const std::uint8_t* data);
   std::optional<SdoTransfer> response(const std::uint8_t* data);
+  std::optional<SdoTransfer> done_if(bool is_done);
   void begin(const std::uint8_t* data, bool is_download, Micros time);
+  bool is_of_object(const std::uint8_t* data) const;
+  bool follow_if(bool is_expected);
   void append(const std::uint8_t* bytes, std::size_t size);
-  void segment(const std::uint8_t* data);
-  void acknowledge(std::uint8_t last);
+  void append_expedited(const std::uint8_t* data);
+  bool segment(const std::uint8_t* data);
+  void begin_block(std::uint8_t blksize);
+  void acknowledge(const std::uint8_t* data);
   void end_block(const std::uint8_t* data);
   SdoTransfer end(SdoTransfer::End how, std::uint32_t code = 0);
 
   Phase phase_ = Phase::idle;
   SdoTransfer transfer_{};
+  bool was_followed_ = false;
+  bool is_expedited_ = false;        ///< a download
   bool is_last_ = false;             ///< the last segment was seen
-  std::uint8_t in_block_ = 0;        ///< segments of the sub-block
-  std::vector<std::uint8_t> block_;  ///< their bytes, which the receiver has not acknowledged yet
+  bool is_ended_ = false;            ///< the end of a block transfer was seen
+  bool is_block_sent_ = false;       ///< the last frame of the sub-block was seen
+  std::uint8_t blksize_ = 0;         ///< segments of a sub-block
+  std::uint8_t in_block_ = 0;        ///< segments of the sub-block without a gap
+  std::uint8_t highest_ = 0;         ///< highest sequence number in the sub-block
+  std::vector<std::uint8_t> block_;  ///< bytes of in_block_ segments, which the receiver has not acknowledged yet
 };
 
 }  // namespace lexican::describe
