@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 # Functions shared by the lanes fuzz, gcc and tools.
 stack_fuzz_targets=(callbacks node sdo_client sdo_server)
-tool_fuzz_targets=(eds json log network socketcand xdd)
+tool_fuzz_targets=(eds json log monitor network socketcand xdd)
 fuzz_targets=("${stack_fuzz_targets[@]}" "${tool_fuzz_targets[@]}")
 
 # Builds only "${fuzz_targets[@]}" and the code that they test, with the preset full: build_fuzz NAME COMPILER

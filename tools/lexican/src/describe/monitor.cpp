@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "frame_bits.hpp"
-#include "model/pdo.hpp"
 #include "trace/text.hpp"
 
 namespace lexican::describe {
@@ -170,14 +169,21 @@ double Statistics::load(std::uint32_t bit_rate) const {
 }
 
 Monitor::Monitor(const Network& network, Show show) : network_(network), show_(std::move(show)), decoder_(no_names) {
+  std::map<const codict::Device*, std::vector<codict::Pdo>> described;  // a device can describe many nodes
   for (std::uint8_t node = 1; node <= 127; ++node) {
-    describe_pdos(node);
+    const codict::Device* const device = network_.of(node).device();
+    if (device != nullptr) {
+      const auto [pdos, is_new] = described.try_emplace(device);
+      if (is_new) {
+        pdos->second = codict::pdos_of(*device);
+      }
+      describe_pdos(node, pdos->second);
+    }
   }
 }
 
-void Monitor::describe_pdos(std::uint8_t node) {
-  const codict::Device* const device = network_.of(node).device();
-  for (const codict::Pdo& described : device != nullptr ? codict::pdos_of(*device) : std::vector<codict::Pdo>()) {
+void Monitor::describe_pdos(std::uint8_t node, const std::vector<codict::Pdo>& all) {
+  for (const codict::Pdo& described : all) {
     const PdoKey at = key(node, described.is_transmit, described.number);
     Pdo& pdo = pdos_[at];
     pdo.node = node;

@@ -14,6 +14,7 @@
 
 #include "describe/description.hpp"
 #include "describe/sdo_transfer.hpp"
+#include "model/pdo.hpp"
 #include "trace/decode.hpp"
 
 namespace lexican::describe {
@@ -95,7 +96,7 @@ class Monitor {
   void report(std::uint8_t node, const SdoTransfer& transfer, Micros time);
   static Bytes value_in(const Description& description, const SdoTransfer& transfer);
   void learn(std::uint8_t node, const SdoTransfer& transfer);
-  void describe_pdos(std::uint8_t node);
+  void describe_pdos(std::uint8_t node, const std::vector<codict::Pdo>& all);
   void set_cob_id(PdoKey key, Pdo& pdo, std::uint32_t cob_id);
   std::string show_pdo(const Pdo& pdo, const CO_IF_FRM& frame) const;
   void state(Event& event, const CO_IF_FRM& frame);
