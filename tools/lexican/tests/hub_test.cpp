@@ -104,6 +104,25 @@ void send_hostile(Hub& hub, const std::string& bytes) {
 
 }  // namespace
 
+TEST_CASE("hub: the last frames of a client that has closed its socket are forwarded") {
+  Hub hub(3);
+  CHECK(hub.buses[0]->send(frame("123#AABB")));
+  SUBCASE("with unread frames") {
+    hub.server.process(1);
+    CHECK(hub.buses[1]->send(frame("000#0105")));
+    hub.buses.erase(hub.buses.begin() + 1);
+  }
+  SUBCASE("while frames wait for it") {
+    CHECK(hub.buses[1]->send(frame("000#0105")));
+    hub.buses.erase(hub.buses.begin() + 1);
+  }
+  for (unsigned n = 0; n < 3; ++n) {
+    hub.server.process(2);
+  }
+  CHECK(read(*hub.buses[1]) == Texts{"123#AABB", "000#0105"});
+  CHECK(hub.server.clients() == 2);
+}
+
 TEST_CASE("hub: a frame reaches all other clients, with the time of the server") {
   Hub hub(3);
   CHECK(hub.buses[0]->send(frame("123#AABB")));

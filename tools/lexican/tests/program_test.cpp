@@ -696,15 +696,6 @@ TEST_CASE("lexican mon: a bus, until it is interrupted, and its record") {
   CHECK(bench.run("mon", {record}).out == ran.out);
 }
 
-TEST_CASE("lexican mon: a bus without any frame is no answer") {
-  const Bench bench;
-  Process mon(bench.line("mon", {}), bench.environment());
-  // SIGTERM ends the program also before it has opened the bus.
-  mon.send(SIGTERM);
-  const Ran ran = mon.finish();
-  CHECK((ran.status == 3 || ran.status == 128 + SIGTERM));
-}
-
 TEST_CASE("lexican scan: an interruption ends it") {
   Bench bench;
   Process& device = bench.add(5);

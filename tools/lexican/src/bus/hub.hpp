@@ -61,7 +61,7 @@ class HubServer {
   void accept_clients();
   bool read_from(Client& from, Micros now);
   void forward(const Client& from, const HubMessage& message);
-  static bool write_to(Client& client);
+  static void write_to(Client& client);
 
   std::string greeting_;
   std::string path_;

@@ -71,10 +71,7 @@ void HubServer::process(Micros now) {
     }
   }
   for (Client& client : clients_) {
-    if (client.fd >= 0 && !write_to(client)) {
-      close(client.fd);
-      client.fd = -1;
-    }
+    write_to(client);
   }
   clients_.erase(std::remove_if(clients_.begin(), clients_.end(), [](const Client& client) { return client.fd < 0; }),
                  clients_.end());
@@ -100,7 +97,8 @@ bool HubServer::read_from(Client& from, Micros now) {
     HubMessage message{};
     const ssize_t size = recv(from.fd, message.data(), message.size(), MSG_TRUNC);
     if (size < 0) {
-      return errno == EAGAIN || errno == EINTR;
+      // A client that has closed its socket with unread frames causes ECONNRESET before its own last frames.
+      return errno == EAGAIN || errno == EINTR || errno == ECONNRESET;
     }
     if (!is_valid(message, size)) {
       return false;
@@ -127,16 +125,16 @@ void HubServer::forward(const Client& from, const HubMessage& message) {
   }
 }
 
-/// \retval false  the client has ended
-bool HubServer::write_to(Client& client) {
-  while (!client.waiting.empty()) {
+/// Discards what a client that has ended cannot receive. read_from() closes it after its last frame.
+void HubServer::write_to(Client& client) {
+  while (client.fd >= 0 && !client.waiting.empty()) {
     const HubMessage& message = client.waiting.front();
-    if (::send(client.fd, message.data(), message.size(), MSG_NOSIGNAL) < 0) {
-      return errno == EAGAIN || errno == EINTR;
+    const bool is_sent = ::send(client.fd, message.data(), message.size(), MSG_NOSIGNAL) >= 0;
+    if (!is_sent && (errno == EAGAIN || errno == EINTR)) {
+      return;
     }
-    client.waiting.pop_front();
+    is_sent ? client.waiting.pop_front() : client.waiting.clear();
   }
-  return true;
 }
 
 }  // namespace lexican::host_bus
