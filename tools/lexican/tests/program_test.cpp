@@ -521,7 +521,7 @@ TEST_CASE("lexican scan: devices with state, profile, identity and name") {
   CHECK(fault_of(json.out, "scan") == "");
 }
 
-TEST_CASE("lexican scan: nobody answers") {
+TEST_CASE("lexican scan: no device answers") {
   const Bench bench;
   check(bench.run("scan", {"--timeout", "10"}), 3, "",
         "lexican: no node answered, and no frame was received; no device runs on this simulated bus\n");

@@ -163,7 +163,7 @@ int report_silence(const host_bus::Bus& bus, const BusLine& line) {
     const CO_IF_FRM& error = *line.error();
     print_message(
         fmt::format("no node answered; the controller reports errors (TEC {}, REC {})", error.Data[6], error.Data[7]));
-    print_message("nobody acknowledges: compare the bit rate" +
+    print_message("no node acknowledges: compare the bit rate" +
                   (bus.bit_rate() != 0 ? fmt::format(" ({} kbit/s)", bus.bit_rate() / 1000) : std::string()) +
                   ", check 60 ohm between CAN_H and CAN_L, and power");
   } else if (line.received() == 0) {
