@@ -37,8 +37,15 @@ std::string verb_of(const std::string& word, const std::vector<Verb>& verbs) {
 
 std::string message_for_unknown(const std::string& word, const std::vector<Verb>& verbs) {
   std::vector<std::string_view> names;
+  std::vector<std::string_view> begun;
   for (const Verb& verb : verbs) {
     names.emplace_back(verb.arguments.name());
+    if (verb.arguments.name().compare(0, word.size(), word) == 0) {
+      begun.emplace_back(verb.arguments.name());
+    }
+  }
+  if (!word.empty() && begun.size() > 1) {
+    return fmt::format("{} is the beginning of several verbs: {}", word, fmt::join(begun, ", "));
   }
   const std::vector<std::string_view> near = lexican::codict::similar(word, names);
   return near.empty() ? fmt::format("unknown verb {}; lexican --help lists all", word)
@@ -48,7 +55,7 @@ std::string message_for_unknown(const std::string& word, const std::vector<Verb>
 int show_verbs(const CommandLine& line) {
   print(std::string(about) + "\n\n");
   for (const auto& command : line.describe_commands()) {
-    print(fmt::format("  {:<8} {}\n", command.name, command.help));
+    print(fmt::format("  {:<10} {}\n", command.name, command.help));
   }
   print("\nlexican VERB --help shows options and examples. Begin with: lexican scan -i BUS\n");
   return ok;

@@ -78,7 +78,11 @@ class Printer {
     if (event.sdo != nullptr && event.sdo->time > event.sdo->begin) {
       line += fmt::format("  {:.1f} ms", static_cast<double>(event.sdo->time - event.sdo->begin) / 1000);
     }
-    has_colour_&& event.is_fault ? print_red(line) : print(line + '\n');
+    if (has_colour_ && event.is_fault) {
+      print_red(line);
+    } else {
+      print(line + '\n');
+    }
   }
 
   void print_json(const Event& event) const {
@@ -286,14 +290,10 @@ class Mon {
     for (const auto& [identifier, count] : numbers.by_identifier) {
       identifiers[identifier_text(identifier)] = count;
     }
-    nlohmann::json json = {{"frames", numbers.frames},
-                           {"duration", static_cast<double>(numbers.last - numbers.first) / 1e6},
-                           {"errors", numbers.errors},
-                           {"lost", bus.lost()},
-                           {"identifiers", identifiers}};
-    if (rate != 0) {
-      json["load"] = numbers.load(rate);
-    }
+    const nlohmann::json json = {
+        {"frames", numbers.frames},   {"duration", static_cast<double>(numbers.last - numbers.first) / 1e6},
+        {"load", numbers.load(rate)}, {"errors", numbers.errors},
+        {"lost", bus.lost()},         {"identifiers", identifiers}};
     print(json.dump() + '\n');
   }
 

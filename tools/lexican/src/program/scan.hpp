@@ -31,7 +31,8 @@ struct Line {
 };
 
 /// Asks each node-ID from 1 to 127. \a answer_time: µs for each answer. Ends early if the line accepts no frame for
-/// half a second: no node acknowledges the frames that are queued. \return the devices by node-ID
+/// half a second: no node acknowledges the frames that are queued.
+/// \return the devices by node-ID
 std::vector<Found> find_devices(Line& line, Micros answer_time);
 
 }  // namespace lexican::program
