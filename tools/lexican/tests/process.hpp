@@ -34,6 +34,8 @@ class Process {
   Process(const std::vector<std::string>& words, const Environment& environment, int input = -1) {
     std::array<int, 2> out{};
     std::array<int, 2> err{};
+    std::array<int, 2> start{};  // closed when the program starts, which resets the handlers of signals
+    REQUIRE(pipe2(start.data(), O_CLOEXEC) == 0);
     REQUIRE(pipe2(out.data(), O_CLOEXEC) == 0);
     REQUIRE(pipe2(err.data(), O_CLOEXEC) == 0);
     pid_ = fork();
@@ -44,6 +46,10 @@ class Process {
     }
     close(out[1]);
     close(err[1]);
+    close(start[1]);
+    char none = 0;
+    CHECK(read(start[0], &none, 1) == 0);
+    close(start[0]);
     pipes_ = {out[0], err[0]};
   }
   ~Process() {

@@ -66,7 +66,6 @@ class Arguments {
   /// Sets the text at the end of the help.
   void end_help(const std::string& text);
 
-
   /// Option with one of a few words.
   template <typename T>
   Option add_choice(const std::string& names, T& value, const Choices<T>& choices, const std::string& help) {
