@@ -243,8 +243,8 @@ TEST_CASE("lexican read: an object by index, without and with a description") {
   check(bench.run("read", {"5", "2001", "--eds", eds}), 0, "2001h Temperature = -40 (i16)\n", "");
   check(bench.run("read", {"5", "2001", "--eds", "5=" + eds}), 0, "2001h Temperature = -40 (i16)\n", "");
   check(bench.run("read", {"5", "2001", "--eds", "6=" + eds}), 0, "2001h:00 = FFD8h\n", "");
-  check(bench.run("read", {"5", "1018:4", "--eds", eds}), 0, "1018h:04 Identity object, Serial number = 418 (u32)\n",
-        "");
+  check(bench.run("read", {"5", "1018:4", "--eds", eds}), 0,
+        "1018h:04 Identity object, Serial number = 000001A2h (u32)\n", "");
   check(bench.run("read", {"5", "2003", "--eds", eds}), 0, "2003h Temperature offset = 0.5 (r32)\n", "");
   check(bench.run("read", {"5", "2004", "--eds", eds}), 0, "2004h Enabled = 1 (bool)\n", "");
   check(bench.run("read", {"5", "2005", "--eds", eds}), 0, "2005h Label = \"axis\" (string)\n", "");
@@ -255,7 +255,7 @@ TEST_CASE("lexican read: an object by its name, or a part of it") {
   check(bench.run("read", {"5", "cycle count", "--eds", eds}), 0, "2006h Cycle count = 7 (u32)\n", "");
   check(bench.run("read", {"5", "cycle", "--eds", eds}), 0, "2006h Cycle count = 7 (u32)\n", "");
   check(bench.run("read", {"5", "serial number", "--eds", eds}), 0,
-        "1018h:04 Identity object, Serial number = 418 (u32)\n", "");
+        "1018h:04 Identity object, Serial number = 000001A2h (u32)\n", "");
   check(bench.run("read", {"5", "position", "--eds", eds}), 0, "2002h Position = 1000 (u32)\n", "");
   check(bench.run("read", {"5", "device name"}), 0, "1008h:00 manufacturer device name = \"SD-400\"\n", "");
   check(bench.run("read", {"5", "temp", "--eds", eds}), 2, "",
@@ -553,7 +553,7 @@ const char* const log_text =
 const char* const event_text =
     "    0.000   5  boot-up\n"
     "    0.011   5  write 1017h Producer heartbeat time = 100  0.6 ms\n"
-    "    0.020   -  NMT start, node 5\n"
+    "    0.020   5  NMT start, node 5\n"
     "    0.030   5  heartbeat: operational\n"
     "    0.040   5  TPDO1 Temperature = -40, Position = 1000\n"
     "    0.050   5  RPDO1 Output = 7\n"
