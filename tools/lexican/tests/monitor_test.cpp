@@ -96,7 +96,7 @@ std::string record(const std::string& section, const std::string& name, const Te
   std::string text = '[' + section + "]\nParameterName=" + name +
                      "\nObjectType=0x9\nSubNumber=" + std::to_string(values.size()) + '\n';
   for (std::size_t n = 0; n < values.size(); ++n) {
-    char sub[16];
+    char sub[24];
     std::snprintf(sub, sizeof sub, "sub%zX", n);
     text += variable(section + sub, "Sub " + std::to_string(n), n == 0 ? "0x0005" : "0x0007", values[n]);
   }
