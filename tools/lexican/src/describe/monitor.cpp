@@ -149,11 +149,10 @@ constexpr Length sync_length = {Service::sync, "SYNC", 1, "0 or 1"};
 
 /// Returns what is wrong with the length of a message; empty if it is right.
 std::string wrong_length(Service service, const CO_IF_FRM& frame) {
-  const auto* row = std::find_if(std::begin(lengths), std::end(lengths),
-                                 [=](const Length& length) { return length.service == service; });
-  row = service == Service::sync ? &sync_length : row;
-  const bool is_right =
-      row == std::end(lengths) || frame.DLC == row->bytes || (service == Service::sync && frame.DLC == 0);
+  const auto* const found = std::find_if(std::begin(lengths), std::end(lengths),
+                                         [=](const Length& length) { return length.service == service; });
+  const Length* const row = service == Service::sync ? &sync_length : found != std::end(lengths) ? found : nullptr;
+  const bool is_right = row == nullptr || frame.DLC == row->bytes || (service == Service::sync && frame.DLC == 0);
   return is_right ? std::string()
                   : fmt::format("{} with {} byte{} instead of {}: {}", row->name, frame.DLC, frame.DLC == 1 ? "" : "s",
                                 row->shown, host_bus::to_text(frame));
