@@ -91,11 +91,11 @@ CO_OBJ_DOM clock_2200_0 = {0, sizeof lexican::demo::picture, lexican::demo::pict
 
 namespace board {
 
-void on_uart() { lexican::demo::uart_interrupt(lexican::can); }
+void on_uart() { lexican::demo::uart_interrupt(lexican::demo::can); }
 
 void on_timer() {
   lexican::demo::timer_interrupt();
-  COTmrService(&lexican::node.Tmr);
+  COTmrService(&lexican::demo::node.Tmr);
 }
 
 }  // namespace board
@@ -105,8 +105,12 @@ void COTmrLock() { lexican::demo::interrupts_before_lock = board::disable_interr
 void COTmrUnlock() { board::restore_interrupts(lexican::demo::interrupts_before_lock); }
 
 #if USE_LSS && USE_PARA
-CO_ERR COLssLoad(std::uint32_t* baud, std::uint8_t* nodeId) { return COLssNvmLoad(&lexican::node, 0, baud, nodeId); }
-CO_ERR COLssStore(std::uint32_t baud, std::uint8_t nodeId) { return COLssNvmStore(&lexican::node, 0, baud, nodeId); }
+CO_ERR COLssLoad(std::uint32_t* baud, std::uint8_t* nodeId) {
+  return COLssNvmLoad(&lexican::demo::node, 0, baud, nodeId);
+}
+CO_ERR COLssStore(std::uint32_t baud, std::uint8_t nodeId) {
+  return COLssNvmStore(&lexican::demo::node, 0, baud, nodeId);
+}
 #endif
 
 void CONodeFatalError() {

@@ -183,7 +183,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? lexican::exit_ok : lexican::exit_usage;
   }
-  const lexican::demo::Interruption interruption;
+  const lexican::Interruption interruption;
   if (interface.empty()) {
     lexican::demo::VirtualBusHost bus(interruption);
     return lexican::demo::run(bus, serve);

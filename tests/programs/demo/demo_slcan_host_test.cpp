@@ -20,7 +20,7 @@
 
 namespace {
 
-using lexican::demo::Interruption;
+using lexican::Interruption;
 using lexican::demo::SlcanHost;
 
 constexpr std::int16_t taken = sizeof(CO_IF_FRM);

@@ -73,6 +73,8 @@ class Process {
       REQUIRE_MESSAGE(is_open, "the program ended without '" << text << "': " << texts_[0] << texts_[1]);
     }
   }
+  /// Returns the standard output so far.
+  const std::string& out() const { return texts_[0]; }
   void send(int signal) const { kill(pid_, signal); }
   /// Waits for the end of the program.
   Ran finish() {

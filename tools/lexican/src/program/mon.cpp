@@ -290,10 +290,14 @@ class Mon {
     for (const auto& [identifier, count] : numbers.by_identifier) {
       identifiers[identifier_text(identifier)] = count;
     }
-    const nlohmann::json json = {
-        {"frames", numbers.frames},   {"duration", static_cast<double>(numbers.last - numbers.first) / 1e6},
-        {"load", numbers.load(rate)}, {"errors", numbers.errors},
-        {"lost", bus.lost()},         {"identifiers", identifiers}};
+    nlohmann::json json = {{"frames", numbers.frames},
+                           {"duration", static_cast<double>(numbers.last - numbers.first) / 1e6},
+                           {"errors", numbers.errors},
+                           {"lost", bus.lost()},
+                           {"identifiers", identifiers}};
+    if (rate != 0) {
+      json["load"] = numbers.load(rate);
+    }
     print(json.dump() + '\n');
   }
 

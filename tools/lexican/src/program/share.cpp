@@ -84,14 +84,17 @@ class Share {
   }
 
   void print_ways(const Options& options, const std::string& name) const {
-    std::string text = "hub:" + name;
-    text += options.port == 0
-                ? ""
-                : fmt::format(", socketcand {}:{}/can0 (python-can, SavvyCAN)", options.address, socketcand_.port());
-    for (const auto& bus : buses_) {
-      text += bus->note().empty() ? "" : ", " + bus->note();
+    const std::string server = options.port == 0 ? "" : fmt::format("{}:{}/can0", options.address, socketcand_.port());
+    const std::string pty = options.has_pty ? buses_.back()->note() : "";
+    if (options.common.is_json) {
+      nlohmann::json json = {{"hub", name}};
+      json.update(server.empty() ? nlohmann::json::object() : nlohmann::json{{"socketcand", server}});
+      json.update(pty.empty() ? nlohmann::json::object() : nlohmann::json{{"slcan", pty.substr(pty.rfind(' ') + 1)}});
+      print(json.dump() + '\n');
+    } else {
+      print("hub:" + name + (server.empty() ? "" : ", socketcand " + server + " (python-can, SavvyCAN)") +
+            (pty.empty() ? "" : ", " + pty) + "; Ctrl-C ends it\n");
     }
-    print(text + "; Ctrl-C ends it\n");
     std::fflush(stdout);
   }
 
