@@ -718,7 +718,7 @@ TEST_CASE("lexican share: a bus as another hub, and as an slcan adapter") {
   CHECK(ways["hub"] == "shared");
   const std::string name = "1008h:00 manufacturer device name = \"SD-400\"\n";
   check(bench.run("read", {"5", "1008", "-i", "hub:shared"}), 0, name, "");
-  check(bench.run("read", {"5", "1008", "-i", "slcan:" + ways["slcan"].get<std::string>()}), 0, name, "");
+  check(bench.run("read", {"5", "1008", "-i", "slcan:" + ways["slcan"].get<std::string>() + "@500k"}), 0, name, "");
   check(bench.run("share", {"--name", "shared"}), 2, "",
         "lexican: hub:shared is in use; choose another name by --name\n");
   check(bench.run("share", {"--name", "a b"}), 2, "",

@@ -246,6 +246,27 @@ TEST_CASE("slcan: the command L for a bus that listens only, and nothing is sent
   CHECK(read_text(at.peer, 2) == "C\r");
 }
 
+TEST_CASE("slcan: rate and mode are set again") {
+  Connected at({0, true});
+  CHECK(at.commands == "C\rL\r");
+  CHECK(at.bus->configure({250000, true}));
+  CHECK(read_text(at.peer, 7) == "C\rS5\rL\r");
+  CHECK(at.bus->bit_rate() == 250000);
+  CHECK(at.bus->configure({250000, true, true}));
+  CHECK(read_text(at.peer, 7) == "C\rS5\rO\r");
+  CHECK_FALSE(at.bus->send(frame("123#")));
+  CHECK(at.bus->configure({125000, false}));
+  CHECK(read_text(at.peer, 7) == "C\rS4\rO\r");
+  CHECK(at.bus->send(frame("123#")));
+  CHECK(read_text(at.peer, 6) == "t1230\r");
+  CHECK_FALSE(at.bus->configure({83333, false}));
+  CHECK(at.bus->bit_rate() == 125000);
+  CHECK(needs_rate("slcan:/dev/x", {}));
+  CHECK_FALSE(needs_rate("slcan:/dev/x@500k", {}));
+  CHECK_FALSE(needs_rate("slcan:/dev/x", {500000}));
+  CHECK_FALSE(needs_rate("hub:x", {}));
+}
+
 TEST_CASE("slcan: a rate that the protocol does not have") {
   const std::string has = "; it has 10, 20, 50, 100, 125, 250, 500, 800 and 1000 kbit/s";
   CHECK(error_of("slcan:/dev/null@300k") == "slcan does not have 300000 bit/s" + has);

@@ -13,6 +13,12 @@
 
 namespace lexican::host_bus {
 
+struct BusOptions {
+  std::uint32_t bit_rate = 0;  ///< bit/s; 0: that of the name, else that of the adapter. An adapter may not have it.
+  bool listens_only = false;   ///< nothing is sent, and an adapter that can do so acknowledges nothing either
+  bool acknowledges = false;   ///< an adapter that listens only acknowledges frames
+};
+
 /// Context: one thread. receive() and send() do not wait, except that receive() of a log reads its file.
 class Bus {
  public:
@@ -32,6 +38,9 @@ class Bus {
   /// Tries to open again a bus that is lost.
   /// \retval true  it is open
   virtual bool restore() = 0;
+  /// Sets the bit rate and the mode of an open adapter again.
+  /// \retval false  the bus has no commands for them
+  virtual bool configure(const BusOptions& /*options*/) { return false; }
 
   /// Returns why the bus is lost, in words; empty: it is not.
   virtual const std::string& fault() const = 0;

@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bus/open.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 #include "bus/hub.hpp"
 
 namespace lexican::host_bus {
 namespace {
 
-/// A bus that sends nothing.
+/// A bus that sends nothing while its options say so.
 class ListeningBus : public Bus {
  public:
   explicit ListeningBus(std::unique_ptr<Bus> bus) : bus_(std::move(bus)) {}
   pollfd wanted() override { return bus_->wanted(); }
   std::optional<Entry> receive() override { return bus_->receive(); }
-  bool send(const CO_IF_FRM& /*frame*/) override { return false; }
+  bool send(const CO_IF_FRM& frame) override { return !listens_only_ && bus_->send(frame); }
   bool restore() override { return bus_->restore(); }
+  bool configure(const BusOptions& options) override {
+    listens_only_ = options.listens_only;
+    return bus_->configure(options);
+  }
   const std::string& fault() const override { return bus_->fault(); }
   std::uint64_t lost() const override { return bus_->lost(); }
   bool is_physical() const override { return bus_->is_physical(); }
@@ -23,31 +30,43 @@ class ListeningBus : public Bus {
 
  private:
   std::unique_ptr<Bus> bus_;
+  bool listens_only_ = true;
 };
 
 }  // namespace
 
 const std::vector<BusKind> bus_kinds = {
-    {"hub:", "hub:bench", "a simulated bus between programs on this machine; it needs nothing else",
+    {"hub:", "hub:bench", "a simulated bus between programs on this machine; it needs nothing else", false,
      [](const std::string& name, const BusOptions& /*options*/, std::string& why) { return open_hub(name, why); }},
-    {"replay:", "replay:FILE", "a log of candump, pcapng, pcap or ASC; - for standard input", open_replay},
-    {"socketcand:", "socketcand:HOST:29536/can0", "a CAN interface of another machine that runs socketcand",
+    {"replay:", "replay:FILE", "a log of candump, pcapng, pcap or ASC; - for standard input", false, open_replay},
+    {"socketcand:", "socketcand:HOST:29536/can0", "a CAN interface of another machine that runs socketcand", false,
      connect_to_socketcand},
-    {"slcan:", "slcan:/dev/ttyACM0@500k", "a serial or USB adapter", open_slcan},
-    {"slcan-tcp:", "slcan-tcp:192.168.0.7:29537", "an slcan adapter behind TCP", open_slcan_tcp},
-    {"slcan-pty", "slcan-pty", "a pseudo-terminal that another program opens as its slcan adapter", open_slcan_pty},
-    {"", "can0", "a CAN interface of Linux", open_socketcan},
+    {"slcan:", "slcan:/dev/ttyACM0@500k", "a serial or USB adapter", true, open_slcan},
+    {"slcan-tcp:", "slcan-tcp:192.168.0.7:29537", "an slcan adapter behind TCP", true, open_slcan_tcp},
+    {"slcan-pty", "slcan-pty", "a pseudo-terminal that another program opens as its slcan adapter", false,
+     open_slcan_pty},
+    {"", "can0", "a CAN interface of Linux", false, open_socketcan},
 };
 
+namespace {
+
+const BusKind& kind_of(const std::string& name) {
+  const auto has_prefix = [&](const BusKind& kind) {
+    return name.compare(0, std::strlen(kind.prefix), kind.prefix) == 0;
+  };
+  return *std::find_if(bus_kinds.begin(), bus_kinds.end(), has_prefix);
+}
+
+}  // namespace
+
 std::unique_ptr<Bus> open_bus(const std::string& name, const BusOptions& options, std::string& why) {
-  for (const BusKind& kind : bus_kinds) {
-    const std::string_view prefix = kind.prefix;
-    if (name.compare(0, prefix.size(), prefix) == 0) {
-      std::unique_ptr<Bus> bus = kind.open(name.substr(prefix.size()), options, why);
-      return bus != nullptr && options.listens_only ? std::make_unique<ListeningBus>(std::move(bus)) : std::move(bus);
-    }
-  }
-  return nullptr;
+  const BusKind& kind = kind_of(name);
+  std::unique_ptr<Bus> bus = kind.open(name.substr(std::strlen(kind.prefix)), options, why);
+  return bus != nullptr && options.listens_only ? std::make_unique<ListeningBus>(std::move(bus)) : std::move(bus);
+}
+
+bool needs_rate(const std::string& name, const BusOptions& options) {
+  return kind_of(name).has_rate && options.bit_rate == 0 && name.find('@') == std::string::npos;
 }
 
 }  // namespace lexican::host_bus

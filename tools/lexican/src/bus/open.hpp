@@ -7,16 +7,12 @@
 
 namespace lexican::host_bus {
 
-struct BusOptions {
-  std::uint32_t bit_rate = 0;  ///< bit/s; 0: that of the name, else that of the adapter. An adapter may not have it.
-  bool listens_only = false;   ///< nothing is sent, and an adapter that can do so acknowledges nothing either
-};
-
 /// A kind of bus.
 struct BusKind {
   const char* prefix;   ///< that a name begins with, such as "hub:"
   const char* example;  ///< a complete name
   const char* about;    ///< a line for --help
+  bool has_rate;        ///< the name can end with @RATE
   /// \a name: behind the prefix. Returns null, with the reason in \a why, if it cannot be opened.
   std::unique_ptr<Bus> (*open)(const std::string& name, const BusOptions& options, std::string& why);
 };
@@ -27,6 +23,9 @@ extern const std::vector<BusKind> bus_kinds;
 /// Opens a bus. It does not send if \a options says so, also where the adapter cannot listen only.
 /// \retval null  \a why says why, and the remedy
 std::unique_ptr<Bus> open_bus(const std::string& name, const BusOptions& options, std::string& why);
+
+/// Returns true if the bus is an adapter whose bit rate neither its name nor \a options has.
+bool needs_rate(const std::string& name, const BusOptions& options);
 
 /// Opens an interface of Linux, such as can0.
 /// \retval null  \a why says why

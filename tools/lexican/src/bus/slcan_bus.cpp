@@ -316,11 +316,7 @@ class AdapterBus : public SlcanBus {
   /// \a rate_command: such as S6; empty: the adapter keeps its rate.
   AdapterBus(const std::string& name, const BusOptions& options, const std::string& rate_command)
       : SlcanBus("slcan adapter " + name, options.bit_rate) {
-    commands_.emplace_back("C");
-    if (!rate_command.empty()) {
-      commands_.push_back(rate_command);
-    }
-    commands_.emplace_back(options.listens_only ? "L" : "O");
+    set_commands(options, rate_command);
   }
 
   /// Sends the rest of the text, and closes the channel. Otherwise close() would wait, for up to 30 seconds, for text
@@ -351,13 +347,20 @@ class AdapterBus : public SlcanBus {
       return false;
     }
     begin(fd);
-    answers_ = 0;
-    refused_.clear();
-    for (const std::string& command : commands_) {
-      append(command + '\r');
-    }
-    flush();
+    send_commands();
     return fd_ >= 0;
+  }
+
+  bool configure(const BusOptions& options) override {
+    std::string command;
+    std::string why;
+    if (!rate_command(options.bit_rate, command, why)) {
+      return false;
+    }
+    bit_rate_ = options.bit_rate;
+    set_commands(options, command);
+    send_commands();
+    return true;
   }
 
   std::string note() const override { return refused_.empty() ? "" : title() + " has refused " + refused_; }
@@ -368,6 +371,23 @@ class AdapterBus : public SlcanBus {
   virtual int open_line(std::string& why) = 0;
 
  private:
+  void set_commands(const BusOptions& options, const std::string& rate_command) {
+    commands_ = {"C"};
+    if (!rate_command.empty()) {
+      commands_.push_back(rate_command);
+    }
+    commands_.emplace_back(options.listens_only && !options.acknowledges ? "L" : "O");
+  }
+
+  void send_commands() {
+    answers_ = 0;
+    refused_.clear();
+    for (const std::string& command : commands_) {
+      append(command + '\r');
+    }
+    flush();
+  }
+
   void process(std::string_view bytes) override {
     for (const char byte : bytes) {
       const std::uint16_t refused = COSlcanRefused(&can_);

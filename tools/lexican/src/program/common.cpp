@@ -6,9 +6,13 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "program/rate.hpp"
 #include "program/verb.hpp"
 
 namespace lexican::program {
+
+using host_bus::Micros;
+
 namespace {
 
 std::string printable(std::string_view text) {
@@ -28,7 +32,8 @@ void add_bus_options(Arguments& arguments, Common& common) {
     kinds += (kinds.empty() ? "" : ", ") + std::string(kind.example);
   }
   arguments.add_option("-i,--bus", common.bus, "Bus: " + kinds + "; default: $LEXICAN_BUS");
-  arguments.add_option("--rate", common.rate, "Bit rate of an adapter, such as 500k");
+  arguments.add_option("--rate", common.rate, "Bit rate of an adapter, such as 500k; default: found by listening");
+  arguments.add_flag("--yes", common.is_sure, "Do not ask before a command that can disturb a physical bus");
   arguments.add_flag("--json", common.is_json, "Print one JSON object in each line");
 }
 
@@ -45,11 +50,61 @@ void add_timeout_option(Arguments& arguments, Common& common, std::uint32_t time
       .in_hidden_range(1, 3'600'000);
 }
 
+namespace {
+
+constexpr Micros time_at_rate = 150'000;  // of the first round of listening
+constexpr unsigned rounds = 3;            // 18 s
+
+/// Finds the bit rate of an adapter that is opened to listen only, and sets rate and mode.
+/// \retval status of the program
+int find_rate(host_bus::Bus& bus, const Common& common, bool listens_only) {
+  const Interruption interruption;
+  if (isatty(STDERR_FILENO) != 0) {
+    print_message("listening at each bit rate; --rate 500k gives it");
+  }
+  const auto listen = [&](bool acknowledges) {
+    return listen_for_rate(bus, {0, true, acknowledges}, time_at_rate, rounds, Interruption::happened);
+  };
+  HeardRate heard = listen(false);
+  if (heard.is_refused && !common.is_sure) {
+    print_message(
+        bus.note() +
+        ": it cannot listen only. Give its bit rate by --rate; or try each rate by --yes, which disturbs a bus "
+        "with another rate");
+    return usage;
+  }
+  if (heard.is_refused || (heard.bit_rate == 0 && common.acknowledges)) {
+    heard = listen(true);
+  }
+  if (Interruption::happened()) {
+    print_message("interrupted");
+    return interrupted;
+  }
+  if (!bus.fault().empty()) {
+    print_message(bus.fault());
+    return bus_fault;
+  }
+  if (heard.bit_rate == 0) {
+    print_message("no frame at any bit rate: give the rate, for example --rate 500k");
+    print_message(
+        "a bus without traffic cannot be heard, and frames of a device that is alone are not acknowledged: lexican mon "
+        "--ack acknowledges them");
+    return no_answer;
+  }
+  print_message(fmt::format("bit rate: {} kbit/s ({} valid {} in {:.1f} s)", heard.bit_rate / 1000, heard.frames,
+                            heard.frames == 1 ? "frame" : "frames", static_cast<double>(heard.time) / 1e6));
+  bus.configure({heard.bit_rate, listens_only, common.acknowledges});
+  return ok;
+}
+
+}  // namespace
+
 std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only, int& status) {
   const char* const usual = std::getenv("LEXICAN_BUS");
   const std::string name = !common.bus.empty() ? common.bus : usual != nullptr ? usual : "";
   host_bus::BusOptions options;
   options.listens_only = listens_only;
+  options.acknowledges = common.acknowledges;
   options.bit_rate = bit_rate_of(common.rate);
   status = usage;
   if (name.empty()) {
@@ -60,15 +115,22 @@ std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only,
     print_message("'" + common.rate + "' is no bit rate; write 500k, 1M or 500000");
     return nullptr;
   }
+  const bool is_unknown = host_bus::needs_rate(name, options);
+  if (is_unknown) {
+    options = {0, true, false};
+  }
   std::string why;
   std::unique_ptr<host_bus::Bus> bus = host_bus::open_bus(name, options, why);
   status = bus_fault;
   if (bus == nullptr) {
     print_message(why);
-  } else if (!bus->note().empty()) {
+    return nullptr;
+  }
+  if (!bus->note().empty()) {
     print_message(bus->note());
   }
-  return bus;
+  status = is_unknown ? find_rate(*bus, common, listens_only) : ok;
+  return status == ok ? std::move(bus) : nullptr;
 }
 
 bool read_descriptions(const Common& common, describe::Network& network) {

@@ -357,6 +357,8 @@ Verb add_mon(CommandLine& line) {
   arguments.add_choices("--service", options->services, services, "Only these services");
   arguments.add_option("--object", options->objects, "Only lines with this index or name").single_values();
   arguments.add_option("--log", options->record, "Record all frames: FILE.pcapng, else in the format of candump");
+  arguments.add_flag("--ack", options->common.acknowledges,
+                     "Acknowledge frames, for a device that is alone on the bus");
   arguments.add_flag("--all", options->shows_all, "Also heartbeats without a change, and each SYNC");
   arguments.end_help(
       "Examples:\n"

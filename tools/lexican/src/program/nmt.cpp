@@ -28,7 +28,6 @@ struct Options {
   Common common;
   std::string command;
   std::string node;
-  bool is_sure = false;
 };
 
 /// Asks on the terminal.
@@ -122,7 +121,7 @@ int run(const Options& options) {
     return status;
   }
   const bool is_grave = is_all || chosen->state == 0;
-  if (is_grave && bus->is_physical() && !options.is_sure) {
+  if (is_grave && bus->is_physical() && !options.common.is_sure) {
     if (isatty(STDIN_FILENO) == 0) {
       print_message("this command changes a physical bus: confirm it by --yes");
       return usage;
@@ -163,7 +162,6 @@ Verb add_nmt(CommandLine& line) {
   arguments.add_option("node", options->node, "Node-ID, 1 to 127, or all").required();
   add_bus_options(arguments, options->common);
   add_timeout_option(arguments, options->common, 2000);
-  arguments.add_flag("--yes", options->is_sure, "Do not ask before a reset, or a command to all, on a physical bus");
   arguments.end_help(
       "Examples:\n"
       "  lexican nmt start 5 -i can0\n"

@@ -50,15 +50,18 @@ struct Common {
   std::vector<std::string> eds;  ///< --eds
   std::uint32_t timeout = 0;     ///< --timeout, ms
   bool is_json = false;          ///< --json
+  bool is_sure = false;          ///< --yes
+  bool acknowledges = false;     ///< --ack, of a verb that listens only
 };
 
-/// Adds -i, --rate and --json.
+/// Adds -i, --rate, --yes and --json.
 void add_bus_options(Arguments& arguments, Common& common);
 void add_eds_option(Arguments& arguments, Common& common);
 /// Adds --timeout. \a time: the default in ms.
 void add_timeout_option(Arguments& arguments, Common& common, std::uint32_t time);
 
-/// Opens the bus of -i. Prints the reason if that fails, and sets \a status.
+/// Opens the bus of -i. The bit rate of an adapter without --rate and @RATE is found by listening. Prints the reason if
+/// that fails, and sets \a status.
 std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only, int& status);
 /// Reads the descriptions of --eds. Prints the reason if that fails.
 bool read_descriptions(const Common& common, describe::Network& network);
