@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Device for the tests of lexican, described by fixtures/device.eds:
 //   lexican_test_device BUS NODE-ID [silent] [slow]
-// silent: has a heartbeat and no SDO server; slow: processes frames every 50 ms. Prints "ready" after its boot-up, then
-// "request" for the first SDO request, and "abort CODE" for each abort of the client. Runs until SIGTERM.
+// NODE-ID 255: it has none, and is an LSS slave; silent: has a heartbeat and no SDO server; slow: processes frames
+// every 50 ms. Prints "ready" after its boot-up, then "request" for the first SDO request, and "abort CODE" for each
+// abort of the client. Runs until SIGTERM.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

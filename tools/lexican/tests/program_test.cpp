@@ -525,6 +525,19 @@ TEST_CASE("lexican scan: devices with state, profile, identity and name") {
   CHECK(fault_of(json.out, "scan") == "");
 }
 
+TEST_CASE("lexican scan: a device without node-ID has a line") {
+  const Bench bench{255};
+  const Ran ran = bench.run("scan", {"--timeout", "160"});
+  CHECK(has(ran.out,
+            "   ?  no node-ID       LSS             00000100:00000402  000001A2\n0 nodes and 1 without node-ID in"));
+  CHECK(ran.err == "");
+  CHECK(ran.status == 0);
+  const Ran json = bench.run("scan", {"--json", "--timeout", "160"});
+  REQUIRE(fault_of(json.out, "scan") == "");
+  CHECK(Json::parse(lines_of(json.out).back()) ==
+        Json{{"state", "no node-ID"}, {"vendor", 0x100}, {"product", 0x402}, {"revision", 0x10000}, {"serial", 0x1A2}});
+}
+
 TEST_CASE("lexican scan: no device answers") {
   const Bench bench;
   check(bench.run("scan", {"--timeout", "10"}), 3, "",

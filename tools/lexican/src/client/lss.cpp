@@ -19,6 +19,7 @@ namespace {
 
 constexpr Micros flush_time = 100 * millisecond;  // time to transmit them
 constexpr std::uint8_t no_sdo = 1;                // server of an unused SDO client
+constexpr std::uint8_t own_id = 127;              // of a master without a node-ID of the command line
 constexpr std::uint8_t waiting = CO_LSSM_WAITING;
 
 std::string address_text(const LssAddress& address) {
@@ -75,9 +76,15 @@ bool select_all(LssMaster& master, const std::vector<LssAddress>& addresses) {
                      [&](const LssAddress& address) { return master.run(COLssmSwitchSelective, address.data()); });
 }
 
-bool scan_nodes(LssMaster& master, std::ostream& out) {
+/// Finds the next node, not one of \a found. Scans again if the node did not answer at the end: an answer was late.
+bool find_next_node(LssMaster& master, const std::vector<LssAddress>& found) {
+  return find_node(master) || (master.timed_out() && master.run(COLssmSwitchGlobal, waiting) &&
+                               select_all(master, found) && find_node(master));
+}
+
+bool scan_nodes(LssMaster& master, const std::function<void(const LssAddress&)>& report) {
   std::vector<LssAddress> found;
-  while (find_node(master)) {
+  while (find_next_node(master, found)) {
     const LssAddress address = master.address();
     if (std::find(found.begin(), found.end(), address) != found.end()) {
       return master.fail("fastscan has found " + address_text(address) +
@@ -87,7 +94,7 @@ bool scan_nodes(LssMaster& master, std::ostream& out) {
     if (!verify_address(master, address)) {
       return false;
     }
-    print_address(out, address);
+    report(address);
     if (!select_all(master, found)) {
       return false;
     }
@@ -154,7 +161,7 @@ bool run_request(LssMaster& master, const LssRequest& request, std::ostream& out
     return false;
   }
   if (request.action == LssAction::scan) {
-    return scan_nodes(master, out);
+    return scan_nodes(master, [&](const LssAddress& address) { print_address(out, address); });
   }
   return select_node(master, request, out) && run_action(master, request, out) &&
          (!request.store || master.run(COLssmStore));
@@ -177,6 +184,20 @@ int carry_out(const LssRequest& request, Host& host, std::ostream& out, std::ost
   master.run(COLssmSwitchGlobal, waiting);
   loop.flush(flush_time);
   return done ? exit_ok : (cancelled ? exit_interrupted : exit_failed);
+}
+
+bool find_unconfigured(Host& host, LssMaster::Times times, const std::function<void(const LssAddress&)>& found,
+                       std::string& fault) {
+  ClientDictionary dictionary(no_sdo);
+  Node node({own_id, host.master_can(), host.master_timer(), dictionary.table()});
+  Loop loop(host, {&node});
+  LssMaster master(node, loop, times);
+  CONodeStart(&node.stack());
+  const bool done = master.run(COLssmSwitchGlobal, waiting) && scan_nodes(master, found);
+  fault = done ? std::string() : master.fault();
+  master.run(COLssmSwitchGlobal, waiting);
+  loop.flush(flush_time);
+  return done;
 }
 
 #else

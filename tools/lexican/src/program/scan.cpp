@@ -1,63 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // lexican scan: finds the devices of a bus, with state, profile, identity and name.
-#include "program/scan.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "program/session.hpp"
+#include "program/bus_host.hpp"
+#include "program/search.hpp"
+#include "program/verb.hpp"
 
 namespace lexican::program {
 namespace {
 
 struct Options {
   Common common;
-};
-
-struct Device {
-  Found found;
-  std::optional<std::uint32_t> vendor;
-  std::optional<std::uint32_t> product;
-  std::optional<std::uint32_t> serial;
-  std::string name;
-};
-
-class BusLine : public Line {
- public:
-  BusLine(host_bus::Bus& bus, const Interruption& interruption) : bus_(bus), host_(bus, interruption) {}
-  bool send(const CO_IF_FRM& frame) override {
-    const bool is_sent = bus_.send(frame);
-    sent_ += is_sent ? 1U : 0U;
-    return is_sent;
-  }
-  std::optional<CO_IF_FRM> receive() override {
-    const std::optional<host_bus::Entry> entry = bus_.receive();
-    if (!entry) {
-      return std::nullopt;
-    }
-    if ((entry->frame.Identifier & CO_IF_FRM_ERROR) != 0) {
-      error_ = entry->frame;
-      return CO_IF_FRM{};
-    }
-    ++received_;
-    return entry->frame;
-  }
-  Micros now() override { return host_.now(); }
-  void wait(Micros time) override { host_.wait(time); }
-  bool is_ended() override { return host_.interrupted(); }
-
-  std::uint64_t received() const { return received_; }
-  std::uint64_t sent() const { return sent_; }
-  const std::optional<CO_IF_FRM>& error() const { return error_; }
-
- private:
-  host_bus::Bus& bus_;
-  BusHost host_;
-  std::uint64_t received_ = 0;
-  std::uint64_t sent_ = 0;
-  std::optional<CO_IF_FRM> error_;  ///< the last error frame
 };
 
 std::string profile_text(const Found& found) {
@@ -97,41 +53,16 @@ std::string number_text(const std::optional<std::uint32_t>& number) {
   return number ? fmt::format("{:08X}", *number) : "-";
 }
 
-std::optional<std::uint32_t> read_number(SdoClient& sdo, std::uint16_t index, std::uint8_t sub, std::uint32_t timeout) {
-  const Transfer transfer = sdo.upload(index, sub, {SdoClient::small, timeout, {}});
-  if (!transfer.done() || transfer.data.size() != 4) {
-    return std::nullopt;
-  }
-  return transfer.data[0] | static_cast<std::uint32_t>(transfer.data[1]) << 8 |
-         static_cast<std::uint32_t>(transfer.data[2]) << 16 | static_cast<std::uint32_t>(transfer.data[3]) << 24;
-}
-
-/// Reads identity and name of a device.
-Device identify(const Found& found, host_bus::Bus& bus, const Interruption& interruption, std::uint32_t timeout) {
-  BusHost host(bus, interruption);
-  ClientDictionary dictionary(found.node);
-  Node node({found.node == 127 ? std::uint8_t{126} : std::uint8_t{127}, host.master_can(), host.master_timer(),
-             dictionary.table()});
-  Loop loop(host, {&node});
-  SdoClient sdo(node, loop);
-  CONodeStart(&node.stack());
-  Device device;
-  device.found = found;
-  device.vendor = read_number(sdo, 0x1018, 1, timeout);
-  device.product = read_number(sdo, 0x1018, 2, timeout);
-  device.serial = read_number(sdo, 0x1018, 4, timeout);
-  const Transfer name = sdo.upload(0x1008, 0, {256, timeout, {}});
-  device.name = name.done() ? visible_text(name.data) : std::string();
-  loop.flush(100 * millisecond);
-  return device;
-}
-
-void print_table(const std::vector<Device>& devices) {
+void print_table(const Devices& found) {
   print("node  state            profile         vendor:product     serial    name\n");
-  for (const Device& device : devices) {
+  for (const Device& device : found.devices) {
     print(fmt::format("{:>4}  {:<16} {:<15} {}:{}  {:<8}  {}\n", device.found.node, state_text(device.found.state),
                       profile_text(device.found), number_text(device.vendor), number_text(device.product),
                       number_text(device.serial), device.name));
+  }
+  for (const LssAddress& address : found.unconfigured) {
+    print(fmt::format("   ?  {:<16} {:<15} {:08X}:{:08X}  {:08X}\n", "no node-ID", "LSS", address[0], address[1],
+                      address[3]));
   }
 }
 
@@ -157,8 +88,17 @@ void print_json_device(const Device& device) {
   print(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
 
+void print_json_address(const LssAddress& address) {
+  const nlohmann::json json = {{"state", "no node-ID"},
+                               {"vendor", address[0]},
+                               {"product", address[1]},
+                               {"revision", address[2]},
+                               {"serial", address[3]}};
+  print(json.dump() + '\n');
+}
+
 /// Prints why no device has answered, by the report of the controller.
-int report_silence(const host_bus::Bus& bus, const BusLine& line) {
+int report_silence(const host_bus::Bus& bus, const HostLine& line) {
   if (line.error()) {
     const CO_IF_FRM& error = *line.error();
     print_message(
@@ -183,15 +123,10 @@ int run(const Options& options) {
     return status;
   }
   const Interruption interruption;
-  BusLine line(*bus, interruption);
-  const Micros begin = line.now();
-  const std::vector<Found> found = find_devices(line, options.common.timeout * millisecond);
-  std::vector<Device> devices;
-  for (const Found& each : found) {
-    if (!line.is_ended()) {
-      devices.push_back(identify(each, *bus, interruption, options.common.timeout * 4));
-    }
-  }
+  BusHost host(*bus, interruption);
+  HostLine line(host);
+  const Micros begin = host.now();
+  const Devices found = find_devices(host, line, options.common.timeout);
   if (Interruption::happened()) {
     print_message("interrupted");
     return interrupted;
@@ -200,16 +135,24 @@ int run(const Options& options) {
     print_message(bus->fault());
     return bus_fault;
   }
-  if (devices.empty()) {
+  if (!found.lss_fault.empty()) {
+    print_message("LSS: " + found.lss_fault);
+  }
+  if (found.devices.empty() && found.unconfigured.empty()) {
     return report_silence(*bus, line);
   }
   if (options.common.is_json) {
-    std::for_each(devices.begin(), devices.end(), print_json_device);
+    std::for_each(found.devices.begin(), found.devices.end(), print_json_device);
+    std::for_each(found.unconfigured.begin(), found.unconfigured.end(), print_json_address);
     return ok;
   }
-  print_table(devices);
-  print(fmt::format("{} {} in {:.1f} s\n", devices.size(), devices.size() == 1 ? "node" : "nodes",
-                    static_cast<double>(line.now() - begin) / 1e6));
+  print_table(found);
+  const std::size_t nodes = found.devices.size();
+  print(fmt::format("{} {}", nodes, nodes == 1 ? "node" : "nodes"));
+  if (!found.unconfigured.empty()) {
+    print(fmt::format(" and {} without node-ID", found.unconfigured.size()));
+  }
+  print(fmt::format(" in {:.1f} s\n", static_cast<double>(host.now() - begin) / 1e6));
   return ok;
 }
 

@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// find_devices(), the search of lexican scan, on a simulated bus with a virtual clock.
-#include "program/scan.hpp"
+// The search of lexican scan, on a simulated bus with a virtual clock.
+#include "program/search.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "frame_bits.hpp"
+#include "host/node.hpp"
+#include "virtual_bus.hpp"
+#include "virtual_clock.hpp"
 
 namespace {
 
 using namespace lexican;
-using program::find_devices;
+using program::Answers;
 using program::Found;
+using program::request_answers;
 
 constexpr Micros answer_time = 80 * millisecond;
 constexpr std::uint32_t bit_rate = 500'000;
@@ -29,6 +36,8 @@ CO_IF_FRM answer_of(std::uint8_t node, std::uint32_t type = 0x00020192) {
 
 CO_IF_FRM state_of(std::uint8_t node, std::uint8_t state) { return {0x700U + node, {state}, 1}; }
 
+std::vector<int> to_vector(const CO_IF_FRM& frame) { return {frame.Data, frame.Data + frame.DLC}; }
+
 /// A wire on which each frame takes its time at 500 kbit/s, with devices that answer after a processing time.
 class Wire : public program::Line {
  public:
@@ -37,8 +46,16 @@ class Wire : public program::Line {
     if (refuses && refuses(*this)) {
       return false;
     }
-    const auto node = static_cast<std::uint8_t>(frame.Identifier - 0x600);
     CHECK(frame.DLC == 8);
+    const bool is_lss = frame.Identifier == 0x7E5;
+    const auto node = is_lss ? std::uint8_t{0} : static_cast<std::uint8_t>(frame.Identifier - 0x600);
+    if (is_lss) {
+      CHECK(to_vector(frame) == std::vector<int>{0x4C, 0, 0, 0, 0, 0, 0, 0});
+      if (has_unconfigured) {
+        put({0x7E4, {0x50}, 8}, now_ + processing);
+      }
+      return true;
+    }
     CHECK(node >= 1);
     CHECK(node <= 127);
     CHECK(requests.insert(node).second);
@@ -73,6 +90,7 @@ class Wire : public program::Line {
   void put(const CO_IF_FRM& frame, Micros time) { arriving_.emplace(occupy(frame, time), frame); }
 
   std::set<unsigned> devices;
+  bool has_unconfigured = false;
   std::function<std::vector<CO_IF_FRM>(std::uint8_t)> answers = [](std::uint8_t node) {
     return std::vector<CO_IF_FRM>{answer_of(node)};
   };
@@ -101,6 +119,72 @@ class Wire : public program::Line {
   std::map<std::uint8_t, Micros> in_flight_;  // node-ID and end of the time for its answer
 };
 
+/// A bus of 500 kbit/s with nodes of the stack, in virtual time, as the bus of a host.
+class Network : public Host {
+ public:
+  Network() {
+    bus_.set_time([this] { return clock_.time(); });
+    bus_.pace(bit_rate);
+  }
+
+  /// \a node: node-ID, or CO_LSS_NO_NODE_ID.
+  void add(std::uint8_t node, std::uint32_t serial) {
+    devices_.push_back(std::make_unique<Member>(*this, node, serial));
+    CONodeStart(&devices_.back()->node.stack());
+    wait(millisecond);
+  }
+
+  Can device_can() override { return master_can(); }
+  Can master_can() override { return {&co::VirtualBusDriver, &master_}; }
+  Timer device_timer() override { return master_timer(); }
+  Timer master_timer() override { return {&co::VirtualTimerDriver, &timer_}; }
+  Micros now() override { return static_cast<Micros>(clock_.time().count()); }
+  void wait(Micros time) override {
+    for (const auto& device : devices_) {
+      device->node.process();
+    }
+    const auto due = static_cast<Micros>(bus_.next_due().count());
+    const Micros until_due = due > now() ? due - now() : 0;
+    const auto step = static_cast<std::int64_t>(std::min({time, until_due, second}));
+    clock_.advance(clock_.ticks(std::chrono::microseconds{step}));
+  }
+  bool interrupted() override { return false; }
+
+ private:
+  struct Member {
+    Member(Network& network, std::uint8_t id, std::uint32_t serial)
+        : objects{{
+              {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x00020192},
+              {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)0},
+              {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&name)},
+              {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)4},
+              {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0xB7},
+              {CO_KEY(0x1018, 2, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x2001},
+              {CO_KEY(0x1018, 3, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)3},
+              {CO_KEY(0x1018, 4, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(serial)},
+              {CO_KEY(0x1200, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)2},
+              {CO_KEY(0x1200, 1, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)0x600},
+              {CO_KEY(0x1200, 2, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)0x580},
+          }},
+          timer(network.clock_),
+          node({id,
+                {&co::VirtualBusDriver, &network.bus_.attach({"device"})},
+                {&co::VirtualTimerDriver, &timer},
+                {objects.data(), static_cast<std::uint16_t>(objects.size())}}) {}
+
+    CO_OBJ_STR name{0, reinterpret_cast<const std::uint8_t*>("SD-400 servo drive")};
+    std::array<CO_OBJ, 11> objects;
+    co::VirtualTimer timer;
+    Node node;
+  };
+
+  co::VirtualClock clock_;
+  co::VirtualBus bus_;
+  co::VirtualBus::Port& master_ = bus_.attach({"adapter", 512, 10, false});
+  co::VirtualTimer timer_{clock_};
+  std::vector<std::unique_ptr<Member>> devices_;
+};
+
 std::vector<unsigned> nodes(const std::vector<Found>& found) {
   std::vector<unsigned> result;
   std::transform(found.begin(), found.end(), std::back_inserter(result), [](const Found& each) { return each.node; });
@@ -121,7 +205,7 @@ TEST_CASE("scan: the search finds 127, 2 or no devices within 1.4 s, with at mos
     Wire wire;
     wire.devices = devices;
     const Micros begin = wire.now();
-    const std::vector<Found> found = find_devices(wire, answer_time);
+    const std::vector<Found> found = request_answers(wire, answer_time).devices;
     CHECK(nodes(found) == Nodes(devices.begin(), devices.end()));
     CHECK(wire.now() - begin <= 1'400 * millisecond);
     CHECK(wire.most_in_flight == 8);
@@ -138,7 +222,7 @@ TEST_CASE("scan: devices that answer in the last moment are found") {
   Wire wire;
   wire.devices = {1, 8, 9, 127};
   wire.processing = answer_time - 5 * millisecond;
-  CHECK(nodes(find_devices(wire, answer_time)) == Nodes{1, 8, 9, 127});
+  CHECK(nodes(request_answers(wire, answer_time).devices) == Nodes{1, 8, 9, 127});
   CHECK(wire.most_in_flight == 8);
 }
 
@@ -148,7 +232,7 @@ TEST_CASE("scan: error control shows the state, also of a device without SDO ser
   wire.put(state_of(5, 0x05), wire.now());
   wire.put(state_of(9, 0x7F), wire.now());
   wire.put(state_of(10, 0x84), wire.now());  // with the toggle bit of guarding
-  const std::vector<Found> found = find_devices(wire, answer_time);
+  const std::vector<Found> found = request_answers(wire, answer_time).devices;
   REQUIRE(nodes(found) == Nodes{5, 9, 10});
   CHECK(found[0].has_type);
   CHECK(found[0].state == std::uint8_t{0x05});
@@ -163,7 +247,7 @@ TEST_CASE("scan: a device that refuses 1000h is found without a type") {
   wire.answers = [](std::uint8_t node) {
     return std::vector<CO_IF_FRM>{{0x580U + node, {0x80, 0x00, 0x10, 0x00, 0x00, 0x00, 0x02, 0x06}, 8}};
   };
-  const std::vector<Found> found = find_devices(wire, answer_time);
+  const std::vector<Found> found = request_answers(wire, answer_time).devices;
   REQUIRE(nodes(found) == Nodes{5});
   CHECK(!found[0].has_type);
   CHECK(found[0].device_type == 0);
@@ -192,14 +276,14 @@ TEST_CASE("scan: malformed and unrelated frames are no answers") {
         {0x180U + node, {0x43, 0x00, 0x10, 0x00}, 8},         // a PDO
     };
   };
-  CHECK(find_devices(wire, answer_time).empty());
+  CHECK(request_answers(wire, answer_time).devices.empty());
   CHECK(wire.requests.size() == 127);
 }
 
 TEST_CASE("scan: an answer to another client counts, and the request of this one is sent nevertheless") {
   Wire wire;
   wire.put(answer_of(100, 401), wire.now());
-  const std::vector<Found> found = find_devices(wire, answer_time);
+  const std::vector<Found> found = request_answers(wire, answer_time).devices;
   REQUIRE(nodes(found) == Nodes{100});
   CHECK(found[0].device_type == 401);
   CHECK(wire.requests.count(100) == 1);
@@ -209,7 +293,7 @@ TEST_CASE("scan: requests that the full queue refuses are sent later") {
   Wire wire;
   wire.devices = {1, 64, 127};
   wire.refuses = [](const Wire& at) { return at.attempts % 3 != 0; };
-  CHECK(nodes(find_devices(wire, answer_time)) == Nodes{1, 64, 127});
+  CHECK(nodes(request_answers(wire, answer_time).devices) == Nodes{1, 64, 127});
   CHECK(wire.requests.size() == 127);
 }
 
@@ -219,7 +303,7 @@ TEST_CASE("scan: the search ends half a second after the queue has become full f
     Wire wire;
     wire.refuses = [=](const Wire& at) { return at.requests.size() >= accepted; };
     const Micros begin = wire.now();
-    CHECK(find_devices(wire, answer_time).empty());
+    CHECK(request_answers(wire, answer_time).devices.empty());
     CHECK(wire.requests.size() == accepted);
     CHECK(wire.now() - begin >= 500 * millisecond);
     CHECK(wire.now() - begin <= 700 * millisecond);
@@ -230,6 +314,57 @@ TEST_CASE("scan: an interruption ends the search") {
   Wire wire;
   wire.devices = {1, 127};
   wire.ended_at = wire.now() + 200 * millisecond;
-  CHECK(nodes(find_devices(wire, answer_time)) == Nodes{1});
+  CHECK(nodes(request_answers(wire, answer_time).devices) == Nodes{1});
   CHECK(wire.now() <= wire.ended_at + answer_time);
+}
+
+TEST_CASE("scan: a device without node-ID is noticed by its answer") {
+  Wire wire;
+  wire.devices = {5};
+  CHECK(!request_answers(wire, answer_time).has_unconfigured);
+  Wire other;
+  other.has_unconfigured = true;
+  const Answers answers = request_answers(other, answer_time);
+  CHECK(answers.has_unconfigured);
+  CHECK(answers.devices.empty());
+}
+
+TEST_CASE("scan: 127 devices, and 2 among 127 node-IDs, are identified within 1.5 s at 500 kbit/s") {
+  for (const unsigned step : {1U, 126U}) {
+    CAPTURE(step);  // 126: devices 1 and 127
+    Network network;
+    for (unsigned node = 1; node <= 127; node += step) {
+      network.add(static_cast<std::uint8_t>(node), 0x1A0 + node);
+    }
+    program::HostLine line(network);
+    const Micros begin = network.now();
+    const program::Devices found = program::find_devices(network, line, 80);
+    MESSAGE(found.devices.size() << " devices: " << (network.now() - begin) / millisecond << " ms");
+    CHECK(network.now() - begin <= 1'500 * millisecond);
+    REQUIRE(found.devices.size() == (127 + step - 1) / step);
+    for (const program::Device& device : found.devices) {
+      CHECK(device.found.device_type == 0x00020192);
+      CHECK(device.vendor == std::uint32_t{0xB7});
+      CHECK(device.product == std::uint32_t{0x2001});
+      CHECK(device.serial == 0x1A0 + device.found.node);
+      CHECK(device.name == "SD-400 servo drive");
+    }
+    CHECK(found.unconfigured.empty());
+    CHECK(found.lss_fault.empty());
+  }
+}
+
+TEST_CASE("scan: devices without node-ID are listed by their LSS address, and remain unconfigured") {
+  Network network;
+  network.add(5, 0x1A2);
+  network.add(CO_LSS_NO_NODE_ID, 0x1A9);
+  network.add(CO_LSS_NO_NODE_ID, 0x1A7);
+  for (unsigned n = 0; n < 2; ++n) {
+    program::HostLine line(network);
+    const program::Devices found = program::find_devices(network, line, 80);
+    CAPTURE(n);
+    CHECK(found.devices.size() == 1);
+    CHECK(found.unconfigured == std::vector<LssAddress>{{0xB7, 0x2001, 3, 0x1A7}, {0xB7, 0x2001, 3, 0x1A9}});
+    CHECK(found.lss_fault == "");
+  }
 }
