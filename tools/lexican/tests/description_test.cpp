@@ -99,14 +99,78 @@ TEST_CASE("description: objects without a description") {
   CHECK(none.object(0x1018, 4) == "1018h:04 serial number");
   CHECK(none.object(0x2000, 1) == "2000h:01");
   CHECK(none.name_of(0x2000, 1).empty());
-  CHECK_FALSE(none.type_of(0x1017, 0));
-  CHECK(none.show(0x1017, 0, {0xE8, 0x03}) == "03E8h");
+  CHECK(none.type_of(0x1017, 0) == ValueType{ValueType::Kind::unsigned_integer, 2});
+  CHECK_FALSE(none.type_of(0x2000, 1));
+  CHECK(none.show(0x1017, 0, {0xE8, 0x03}) == "1000");
   CHECK(none.show(0x2000, 1, {0x7F}) == "7Fh");
   CHECK(none.show(0x2000, 1, {1, 2, 3}) == "01 02 03");
   CHECK(none.show(0x2000, 1, {1, 2, 3, 4}) == "04030201h");
   CHECK(none.show(0x2000, 1, {1, 2, 3, 4, 5, 6, 7, 8}) == "0807060504030201h");
   CHECK(none.show(0x1008, 0, bytes_of("SD-400")) == "\"SD-400\"");
   CHECK(none.show(0x2000, 1, {}) == "no data");
+}
+
+TEST_CASE("description: the objects of CiA 301 have their types without a description") {
+  const Description none;
+  const auto name_of = [&](std::uint16_t index, std::uint8_t sub_index) {
+    const std::optional<ValueType> type = none.type_of(index, sub_index);
+    return !type                                    ? std::string("-")
+           : type->kind == ValueType::Kind::text    ? std::string("string")
+           : type->kind == ValueType::Kind::bytes   ? std::string("bytes")
+           : type->kind == ValueType::Kind::boolean ? std::string("bool")
+                                                    : 'u' + std::to_string(8 * type->size);
+  };
+  struct Typed {
+    std::uint16_t index;
+    std::vector<const char*> types;  // of sub-index 0, 1, …
+  };
+  const Typed all[] = {{0x1000, {"u32"}},
+                       {0x1001, {"u8"}},
+                       {0x1003, {"u8", "u32", "u32"}},
+                       {0x1008, {"string"}},
+                       {0x1009, {"string"}},
+                       {0x100A, {"string"}},
+                       {0x100C, {"u16"}},
+                       {0x1016, {"u8", "u32", "u32"}},
+                       {0x1017, {"u16"}},
+                       {0x1018, {"u8", "u32", "u32", "u32", "u32"}},
+                       {0x1021, {"bytes"}},
+                       {0x1200, {"u8", "u32", "u32", "u8"}},
+                       {0x1301, {"u8", "u8", "u16", "u8", "u8", "u32", "u32"}},
+                       {0x15FF, {"u8", "u32", "u8", "u16", "u8", "u16", "u8"}},
+                       {0x1801, {"u8", "u32", "u8", "u16", "u8", "u16", "u8"}},
+                       {0x1A03, {"u8", "u32", "u32"}},
+                       {0x1C00, {"-", "-"}},
+                       {0x6041, {"-"}}};
+  for (const Typed& object : all) {
+    for (std::size_t sub = 0; sub < object.types.size(); ++sub) {
+      CAPTURE(object.index);
+      CAPTURE(sub);
+      CHECK(name_of(object.index, static_cast<std::uint8_t>(sub)) == object.types[sub]);
+    }
+  }
+  CHECK(none.show(0x1009, 0, bytes_of("V1")) == "\"V1\"");
+  CHECK(none.show(0x100A, 0, bytes_of("a")) == "\"a\"");
+  CHECK(none.show(0x1001, 0, {0x09}) == "09h");
+  CHECK(none.show(0x1003, 0, {2}) == "2");
+  CHECK(none.show(0x1003, 1, {0x10, 0x43, 0, 0}) == "00004310h");
+  CHECK(none.show(0x1016, 1, {0xF4, 0x01, 0x7F, 0}) == "007F01F4h");
+  CHECK(none.show(0x1800, 1, {0x81, 0x01, 0, 0}) == "00000181h");
+  CHECK(none.show(0x1800, 5, {100, 0}) == "100");
+  CHECK(none.show(0x1017, 0, {1}) == "01h (1 byte instead of 2)");
+  CHECK(read(eds({})).show(0x1017, 0, {0xE8, 0x03}) == "1000");
+}
+
+TEST_CASE("description: the signatures of 1010h and 1011h") {
+  const Description none;
+  CHECK(signature_of(0x1010, 1) == "save");
+  CHECK(signature_of(0x1011, 127) == "load");
+  CHECK(signature_of(0x1010, 0).empty());
+  CHECK(signature_of(0x1012, 1).empty());
+  CHECK(none.show(0x1010, 1, bytes_of("save")) == "65766173h (save)");
+  CHECK(none.show(0x1011, 2, bytes_of("load")) == "64616F6Ch (load)");
+  CHECK(none.show(0x1010, 1, bytes_of("load")) == "64616F6Ch");
+  CHECK(none.show(0x1010, 1, {1, 0, 0, 0}) == "00000001h");
 }
 
 TEST_CASE("description: names of variables and sub-objects") {

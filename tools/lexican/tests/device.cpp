@@ -35,6 +35,7 @@ std::uint32_t cycles = 7;
 std::uint32_t password = 0;
 const std::uint32_t limit = 5;
 CO_OBJ_STR name = {0, reinterpret_cast<const std::uint8_t*>("SD-400")};
+CO_OBJ_STR version = {0, reinterpret_cast<const std::uint8_t*>("V1")};
 std::vector<std::uint8_t> program(100'000);
 CO_OBJ_DOM program_memory = {0, 100'000, program.data()};
 
@@ -58,6 +59,11 @@ CO_OBJ objects[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x00020192},
     {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)},
     {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&name)},
+    {CO_KEY(0x1009, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&version)},
+    {CO_KEY(0x1010, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)1},
+    {CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(&password)},
+    {CO_KEY(0x1011, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)1},
+    {CO_KEY(0x1011, 1, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(&password)},
     {CO_KEY(0x1014, 0, CO_OBJ_DN__R_), CO_TEMCY_ID, (CO_DATA)0x80},
     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&heartbeat)},
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)4},

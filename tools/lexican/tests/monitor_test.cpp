@@ -306,7 +306,7 @@ TEST_CASE("monitor: an SDO answer after 0.6 ms") {
   Bus bus;
   bus.at(10'000, 0x605, {0x40, 0x17, 0x10, 0, 0, 0, 0, 0});
   bus.at(10'600, 0x585, {0x4B, 0x17, 0x10, 0, 0xE8, 0x03, 0, 0});
-  CHECK(bus.events == Texts{"sdo 5 read 1017h:00 producer heartbeat time = 03E8h"});
+  CHECK(bus.events == Texts{"sdo 5 read 1017h:00 producer heartbeat time = 1000"});
   CHECK(bus.times == std::vector<Micros>{10'600});
   CHECK(bus.durations == std::vector<Micros>{600});
 }
@@ -330,7 +330,10 @@ TEST_CASE("monitor: an expedited transfer without size has the size of the type"
   Bus other;
   other.frame(0x605, {0x40, 0x17, 0x10, 0, 0, 0, 0, 0});
   CHECK(other.frame(0x585, {0x42, 0x17, 0x10, 0, 0xE8, 0x03, 0, 0}) ==
-        "sdo 5 read 1017h:00 producer heartbeat time = 000003E8h");
+        "sdo 5 read 1017h:00 producer heartbeat time = 1000");
+  other.frame(0x605, {0x40, 0x00, 0x20, 0, 0, 0, 0, 0});
+  CHECK(other.frame(0x585, {0x42, 0x00, 0x20, 0, 0xE8, 0x03, 0, 0}) == "sdo 5 read 2000h:00 = 000003E8h");
+  CHECK(other.write(5, 0x1010, 1, 0x65766173, false) == "sdo 5 write 1010h:01 store parameters = 65766173h (save)");
 }
 
 TEST_CASE("monitor: frames of SDO without a transfer") {

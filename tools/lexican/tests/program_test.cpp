@@ -78,6 +78,8 @@ std::string fault_of(const std::string& text, const std::string& verb) {
   return lines_of(text).empty() ? "no line" : "";
 }
 
+const std::string heartbeat = "1017h:00 producer heartbeat time = 50 (u16)\n";
+
 /// A hub with devices, and the program on it.
 class Bench {
  public:
@@ -236,10 +238,10 @@ TEST_CASE("lexican read: a wrong node is wrong use, a silent one is no answer") 
 
 TEST_CASE("lexican read: an object by index, without and with a description") {
   const Bench bench{5};
-  check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h\n", "");
-  check(bench.run("read", {"5", "0x1018:4"}), 0, "1018h:04 serial number = 000001A2h\n", "");
+  check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h (u32)\n", "");
+  check(bench.run("read", {"5", "0x1018:4"}), 0, "1018h:04 serial number = 000001A2h (u32)\n", "");
   check(bench.run("read", {"5", "1018h:04", "--type", "u32"}), 0, "1018h:04 serial number = 418 (u32)\n", "");
-  check(bench.run("read", {"5", "1008"}), 0, "1008h:00 manufacturer device name = \"SD-400\"\n", "");
+  check(bench.run("read", {"5", "1008"}), 0, "1008h:00 manufacturer device name = \"SD-400\" (string)\n", "");
   check(bench.run("read", {"5", "2001", "--eds", eds}), 0, "2001h Temperature = -40 (i16)\n", "");
   check(bench.run("read", {"5", "2001", "--eds", "5=" + eds}), 0, "2001h Temperature = -40 (i16)\n", "");
   check(bench.run("read", {"5", "2001", "--eds", "6=" + eds}), 0, "2001h:00 = FFD8h\n", "");
@@ -257,7 +259,7 @@ TEST_CASE("lexican read: an object by its name, or a part of it") {
   check(bench.run("read", {"5", "serial number", "--eds", eds}), 0,
         "1018h:04 Identity object, Serial number = 000001A2h (u32)\n", "");
   check(bench.run("read", {"5", "position", "--eds", eds}), 0, "2002h Position = 1000 (u32)\n", "");
-  check(bench.run("read", {"5", "device name"}), 0, "1008h:00 manufacturer device name = \"SD-400\"\n", "");
+  check(bench.run("read", {"5", "device name"}), 0, "1008h:00 manufacturer device name = \"SD-400\" (string)\n", "");
   check(bench.run("read", {"5", "temp", "--eds", eds}), 2, "",
         "lexican: 'temp' is the name of several objects; give more of it, or the index:\n"
         "  2001h Temperature\n"
@@ -320,12 +322,12 @@ TEST_CASE("lexican write: values of each type, and what reads back") {
         Value{"2004", "false", "2004h Enabled = 0 (bool)\n"},
         Value{"2005", "spindle 2", "2005h Label = \"spindle 2\" (string)\n"}}) {
     CAPTURE(value.object);
-    check(bench.run("write", {"5", value.object, value.written, "--eds", eds, "--verify"}), 0, "", "");
+    check(bench.run("write", {"5", value.object, value.written, "--eds", eds, "--verify"}), 0, value.read, "");
     check(bench.run("read", {"5", value.object, "--eds", eds}), 0, value.read, "");
   }
-  check(bench.run("write", {"5", "2001", "--eds", eds, "--", "-7"}), 0, "", "");
+  check(bench.run("write", {"5", "2001", "--eds", eds, "--", "-7"}), 0, "2001h Temperature = -7 (i16)\n", "");
   check(bench.run("read", {"5", "2001", "--type", "i16"}), 0, "2001h:00 = -7 (i16)\n", "");
-  check(bench.run("write", {"5", "2001", "FFFF", "--type", "bytes"}), 0, "", "");
+  check(bench.run("write", {"5", "2001", "FFFF", "--type", "bytes"}), 0, "2001h:00 = FF FF (bytes)\n", "");
   check(bench.run("read", {"5", "2001", "--type", "u32"}), 0,
         "2001h:00 = the object has 2 bytes, a value of this type has 4: 0xFFFF (u32)\n", "");
 }
@@ -353,9 +355,26 @@ TEST_CASE("lexican write: a value that does not fit is refused before anything i
   CHECK(bench.run("write", {"5", "2002", "--file", bench.directory / "none"}).status == 2);
 }
 
+TEST_CASE("lexican write: the objects of CiA 301 need no type, and their signatures are words") {
+  const Bench bench{5};
+  check(bench.run("write", {"5", "1017", "500", "--verify"}), 0, "1017h:00 producer heartbeat time = 500 (u16)\n", "");
+  check(bench.run("read", {"5", "1017"}), 0, "1017h:00 producer heartbeat time = 500 (u16)\n", "");
+  check(bench.run("read", {"5", "1009"}), 0, "1009h:00 manufacturer hardware version = \"V1\" (string)\n", "");
+  for (const Words& more : {Words{}, Words{"--eds", eds}}) {
+    Words words = {"5", "1010:1", "save"};
+    words.insert(words.end(), more.begin(), more.end());
+    check(bench.run("write", words), 0, "1010h:01 store parameters = 65766173h (save) (u32)\n", "");
+  }
+  check(bench.run("write", {"5", "1010:1", "load"}), 2, "",
+        "lexican: 1010h:01 store parameters: 'load' is no integer\n");
+  check(bench.run("write", {"5", "1011:1", "load"}), 0,
+        "1011h:01 restore default parameters = 64616F6Ch (load) (u32)\n", "");
+}
+
 TEST_CASE("lexican write: --force writes beyond the limits of the description") {
   const Bench bench{5};
-  check(bench.run("write", {"5", "2001", "126", "--eds", eds, "--force", "--verify"}), 0, "", "");
+  check(bench.run("write", {"5", "2001", "126", "--eds", eds, "--force", "--verify"}), 0,
+        "2001h Temperature = 126 (i16)\n", "");
   check(bench.run("read", {"5", "2001", "--eds", eds}), 0, "2001h Temperature = 126 (i16)\n", "");
 }
 
@@ -383,18 +402,19 @@ TEST_CASE("lexican read, write: a domain of 100 KB has the same bytes in both di
   CHECK(piped.err.empty());
   std::reverse(program.begin(), program.end());
   write_bytes(down, program);
-  check(bench.run("write", {"5", "2009", "--file", down, "--verify"}), 0, "", "");
+  check(bench.run("write", {"5", "2009", "--file", down, "--verify"}), 0, "2009h:00, 100000 bytes\n", "");
   CHECK((bench.run("read", {"5", "2009", "-o", "-"}).out == program));
   check(bench.run("read", {"5", "2009", "--most", "99999"}), 1, "",
         "lexican: 2009h:00 has more than 99999 bytes; allow more by --most\n");
   CHECK(bench.run("read", {"5", "2009", "-o", bench.directory / "none/file"}).status == 2);
-  check(bench.run_with_input("write", {"5", "2005", "--file", "-"}, "/dev/null"), 0, "", "");
+  check(bench.run_with_input("write", {"5", "2005", "--file", "-"}, "/dev/null"), 0, "2005h:00, 0 bytes\n", "");
   check(bench.run("read", {"5", "2005", "--eds", eds}), 0, "2005h Label = \"\" (string)\n", "");
 }
 
 TEST_CASE("lexican read: control characters of a device do not reach the terminal") {
   const Bench bench{5};
-  check(bench.run("write", {"5", "2005", "61 1B 5B 33 31 6D 7F", "--type", "bytes"}), 0, "", "");
+  check(bench.run("write", {"5", "2005", "61 1B 5B 33 31 6D 7F", "--type", "bytes"}), 0,
+        "2005h:00 = 61 1B 5B 33 31 6D 7F (bytes)\n", "");
   check(bench.run("read", {"5", "2005", "--type", "string"}), 0, "2005h:00 = a?[31m? (string)\n", "");
 }
 
@@ -454,17 +474,17 @@ TEST_CASE("lexican: the check of a JSON schema finds faults") {
 
 TEST_CASE("lexican nmt: a command waits for the state that it causes") {
   const Bench bench{5};
-  check(bench.run("write", {"5", "1017", "50", "--type", "u16"}), 0, "", "");
-  check(bench.run("nmt", {"start", "5", "--timeout", "30000"}), 0, "", "");
-  check(bench.run("nmt", {"stop", "5", "--timeout", "30000"}), 0, "", "");
+  check(bench.run("write", {"5", "1017", "50"}), 0, heartbeat, "");
+  check(bench.run("nmt", {"start", "5", "--timeout", "30000"}), 0, "node 5 is operational\n", "");
+  check(bench.run("nmt", {"stop", "5", "--timeout", "30000"}), 0, "node 5 is stopped\n", "");
   CHECK(bench.run("read", {"5", "1000", "--timeout", "50"}).status == 3);
-  check(bench.run("nmt", {"preop", "5", "--timeout", "30000"}), 0, "", "");
-  check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h\n", "");
+  check(bench.run("nmt", {"preop", "5", "--timeout", "30000"}), 0, "node 5 is pre-operational\n", "");
+  check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h (u32)\n", "");
   const Ran json = bench.run("nmt", {"start", "5", "--timeout", "30000", "--json"});
   check(json, 0, "{\"command\":\"start\",\"done\":true,\"node\":\"5\"}\n", "");
   CHECK(fault_of(json.out, "nmt") == "");
-  check(bench.run("nmt", {"reset", "5", "--timeout", "30000"}), 0, "", "");
-  check(bench.run("nmt", {"reset-comm", "5", "--timeout", "30000"}), 0, "", "");
+  check(bench.run("nmt", {"reset", "5", "--timeout", "30000"}), 0, "node 5 has booted\n", "");
+  check(bench.run("nmt", {"reset-comm", "5", "--timeout", "30000"}), 0, "node 5 has booted\n", "");
 }
 
 TEST_CASE("lexican nmt: the state of a device without heartbeat is unknown") {
@@ -478,9 +498,9 @@ TEST_CASE("lexican nmt: the state of a device without heartbeat is unknown") {
 
 TEST_CASE("lexican nmt: all nodes, without a question on a simulated bus") {
   Bench bench{5, 6};
-  check(bench.run("write", {"5", "1017", "50", "--type", "u16"}), 0, "", "");
-  check(bench.run("write", {"6", "1017", "50", "--type", "u16"}), 0, "", "");
-  check(bench.run("nmt", {"start", "all"}), 0, "", "");
+  check(bench.run("write", {"5", "1017", "50"}), 0, heartbeat, "");
+  check(bench.run("write", {"6", "1017", "50"}), 0, heartbeat, "");
+  check(bench.run("nmt", {"start", "all"}), 0, "start was sent to all nodes\n", "");
   const Ran scan = bench.run("scan", {"--timeout", "200"});
   CHECK(has(scan.out, "   5  operational"));
   CHECK(has(scan.out, "   6  operational"));
@@ -703,7 +723,7 @@ TEST_CASE("lexican mon: a bus, until it is interrupted, and its record") {
   const std::string record = bench.directory / "record.pcapng";
   Process mon(bench.line("mon", {"--log", record}), bench.environment());
   mon.wait_for(" 12  heartbeat: pre-operational");
-  check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h\n", "");
+  check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h (u32)\n", "");
   mon.wait_for("  5  read 1000h:00 device type = 00020192h");
   mon.send(SIGINT);
   const Ran ran = mon.finish();
@@ -729,7 +749,7 @@ TEST_CASE("lexican share: a bus as another hub, and as an slcan adapter") {
   CHECK(fault_of(share.out(), "share") == "");
   const Json ways = Json::parse(share.out());
   CHECK(ways["hub"] == "shared");
-  const std::string name = "1008h:00 manufacturer device name = \"SD-400\"\n";
+  const std::string name = "1008h:00 manufacturer device name = \"SD-400\" (string)\n";
   check(bench.run("read", {"5", "1008", "-i", "hub:shared"}), 0, name, "");
   check(bench.run("read", {"5", "1008", "-i", "slcan:" + ways["slcan"].get<std::string>() + "@500k"}), 0, name, "");
   check(bench.run("share", {"--name", "shared"}), 2, "",

@@ -23,54 +23,57 @@ struct Standard {
   std::uint16_t first;
   std::uint16_t last;
   std::string_view name;
+  /// Types of sub-index 0, 1, and so on; the last one is also that of all further ones. x8 and x32: unsigned, shown in
+  /// hexadecimal digits, such as COB-IDs, mappings, identity, codes and flags.
+  std::string_view types;
 };
 
-/// Names of the communication profile. [301:7.5.2]
+/// The communication profile. [301:7.5.2]
 constexpr Standard standard[] = {
-    {0x1000, 0x1000, "device type"},
-    {0x1001, 0x1001, "error register"},
-    {0x1002, 0x1002, "manufacturer status register"},
-    {0x1003, 0x1003, "pre-defined error field"},
-    {0x1005, 0x1005, "COB-ID SYNC"},
-    {0x1006, 0x1006, "communication cycle period"},
-    {0x1007, 0x1007, "synchronous window length"},
-    {0x1008, 0x1008, "manufacturer device name"},
-    {0x1009, 0x1009, "manufacturer hardware version"},
-    {0x100A, 0x100A, "manufacturer software version"},
-    {0x100C, 0x100C, "guard time"},
-    {0x100D, 0x100D, "life time factor"},
-    {0x1010, 0x1010, "store parameters"},
-    {0x1011, 0x1011, "restore default parameters"},
-    {0x1012, 0x1012, "COB-ID TIME"},
-    {0x1013, 0x1013, "high resolution time stamp"},
-    {0x1014, 0x1014, "COB-ID EMCY"},
-    {0x1015, 0x1015, "inhibit time EMCY"},
-    {0x1016, 0x1016, "consumer heartbeat time"},
-    {0x1017, 0x1017, "producer heartbeat time"},
-    {0x1018, 0x1018, "identity object"},
-    {0x1019, 0x1019, "synchronous counter overflow value"},
-    {0x1020, 0x1020, "verify configuration"},
-    {0x1021, 0x1021, "store EDS"},
-    {0x1022, 0x1022, "storage format"},
-    {0x1023, 0x1023, "OS command"},
-    {0x1024, 0x1024, "OS command mode"},
-    {0x1025, 0x1025, "OS debugger interface"},
-    {0x1026, 0x1026, "OS prompt"},
-    {0x1027, 0x1027, "module list"},
-    {0x1028, 0x1028, "emergency consumer object"},
-    {0x1029, 0x1029, "error behavior object"},
-    {0x1200, 0x127F, "SDO server parameter"},
-    {0x1280, 0x12FF, "SDO client parameter"},
-    {0x1300, 0x1300, "global fail-safe command parameter"},
-    {0x1301, 0x1340, "SRDO communication parameter"},
-    {0x1381, 0x13C0, "SRDO mapping parameter"},
-    {0x1400, 0x15FF, "RPDO communication parameter"},
-    {0x1600, 0x17FF, "RPDO mapping parameter"},
-    {0x1800, 0x19FF, "TPDO communication parameter"},
-    {0x1A00, 0x1BFF, "TPDO mapping parameter"},
-    {0x1F50, 0x1F50, "program data"},
-    {0x1F51, 0x1F51, "program control"},
-    {0x1F80, 0x1F80, "NMT startup"},
+    {0x1000, 0x1000, "device type", "x32"},
+    {0x1001, 0x1001, "error register", "x8"},
+    {0x1002, 0x1002, "manufacturer status register", "x32"},
+    {0x1003, 0x1003, "pre-defined error field", "u8 x32"},
+    {0x1005, 0x1005, "COB-ID SYNC", "x32"},
+    {0x1006, 0x1006, "communication cycle period", "u32"},
+    {0x1007, 0x1007, "synchronous window length", "u32"},
+    {0x1008, 0x1008, "manufacturer device name", "string"},
+    {0x1009, 0x1009, "manufacturer hardware version", "string"},
+    {0x100A, 0x100A, "manufacturer software version", "string"},
+    {0x100C, 0x100C, "guard time", "u16"},
+    {0x100D, 0x100D, "life time factor", "u8"},
+    {0x1010, 0x1010, "store parameters", "u8 x32"},
+    {0x1011, 0x1011, "restore default parameters", "u8 x32"},
+    {0x1012, 0x1012, "COB-ID TIME", "x32"},
+    {0x1013, 0x1013, "high resolution time stamp", "u32"},
+    {0x1014, 0x1014, "COB-ID EMCY", "x32"},
+    {0x1015, 0x1015, "inhibit time EMCY", "u16"},
+    {0x1016, 0x1016, "consumer heartbeat time", "u8 x32"},
+    {0x1017, 0x1017, "producer heartbeat time", "u16"},
+    {0x1018, 0x1018, "identity object", "u8 x32"},
+    {0x1019, 0x1019, "synchronous counter overflow value", "u8"},
+    {0x1020, 0x1020, "verify configuration", "u8 u32"},
+    {0x1021, 0x1021, "store EDS", "bytes"},
+    {0x1022, 0x1022, "storage format", "u16"},
+    {0x1023, 0x1023, "OS command", "u8 bytes u8 bytes"},
+    {0x1024, 0x1024, "OS command mode", "u8"},
+    {0x1025, 0x1025, "OS debugger interface", "u8 bytes u8 bytes"},
+    {0x1026, 0x1026, "OS prompt", "u8"},
+    {0x1027, 0x1027, "module list", "u8 u16"},
+    {0x1028, 0x1028, "emergency consumer object", "u8 x32"},
+    {0x1029, 0x1029, "error behavior object", "u8"},
+    {0x1200, 0x127F, "SDO server parameter", "u8 x32 x32 u8"},
+    {0x1280, 0x12FF, "SDO client parameter", "u8 x32 x32 u8"},
+    {0x1300, 0x1300, "global fail-safe command parameter", "u8"},
+    {0x1301, 0x1340, "SRDO communication parameter", "u8 u8 u16 u8 u8 x32"},
+    {0x1381, 0x13C0, "SRDO mapping parameter", "u8 x32"},
+    {0x1400, 0x15FF, "RPDO communication parameter", "u8 x32 u8 u16 u8 u16 u8"},
+    {0x1600, 0x17FF, "RPDO mapping parameter", "u8 x32"},
+    {0x1800, 0x19FF, "TPDO communication parameter", "u8 x32 u8 u16 u8 u16 u8"},
+    {0x1A00, 0x1BFF, "TPDO mapping parameter", "u8 x32"},
+    {0x1F50, 0x1F50, "program data", "u8 bytes"},
+    {0x1F51, 0x1F51, "program control", "u8"},
+    {0x1F80, 0x1F80, "NMT startup", "x32"},
 };
 
 constexpr std::string_view identity[] = {"", "vendor-ID", "product code", "revision number", "serial number"};
@@ -145,28 +148,26 @@ std::string physical(const codict::Entry& entry, const std::string& raw) {
          (unit.empty() ? "" : fmt::format(" {}", unit));
 }
 
-/// Returns whether an object of the communication profile is a COB-ID, a mapping, an identity, a code or flags, which
-/// are written in hexadecimal digits. [301:7.5.2]
-bool is_hexadecimal(std::uint16_t index, std::uint8_t sub_index) {
-  switch (index) {
-    case 0x1000:
-    case 0x1001:
-    case 0x1002:
-    case 0x1005:
-    case 0x1012:
-    case 0x1014: return true;
-    case 0x1003:
-    case 0x1010:
-    case 0x1011:
-    case 0x1016:
-    case 0x1018:
-    case 0x1028: return sub_index != 0;
-    default: break;
+/// Returns the row of an object of the communication profile; null: it has none.
+const Standard* standard_of(std::uint16_t index) {
+  const auto* const row = std::find_if(std::begin(standard), std::end(standard), [=](const Standard& range) {
+    return index >= range.first && index <= range.last;
+  });
+  return row != std::end(standard) ? row : nullptr;
+}
+
+/// Returns the type of an entry of the communication profile as in Standard::types; empty for others.
+std::string_view standard_type(std::uint16_t index, std::uint8_t sub_index) {
+  const Standard* const row = standard_of(index);
+  std::string_view types = row != nullptr ? row->types : std::string_view();
+  for (unsigned n = 0; n < sub_index && types.find(' ') != std::string_view::npos; ++n) {
+    types.remove_prefix(types.find(' ') + 1);
   }
-  const bool is_sdo = index >= 0x1200 && index <= 0x12FF && (sub_index == 1 || sub_index == 2);
-  const bool is_pdo = index >= 0x1400 && index <= 0x1BFF;
-  const bool is_mapping = (index & 0x0200U) != 0;
-  return is_sdo || (is_pdo && (is_mapping ? sub_index != 0 : sub_index == 1));
+  return types.substr(0, types.find(' '));
+}
+
+bool is_hexadecimal(std::uint16_t index, std::uint8_t sub_index) {
+  return standard_type(index, sub_index).substr(0, 1) == "x";
 }
 
 /// Returns the name of a value of an enumeration; empty if it has none.
@@ -185,10 +186,12 @@ std::string_view standard_name(std::uint16_t index, std::uint8_t sub_index) {
   if (index == 0x1018 && sub_index > 0 && sub_index < std::size(identity)) {
     return identity[sub_index];
   }
-  const auto* const row = std::find_if(std::begin(standard), std::end(standard), [=](const Standard& range) {
-    return index >= range.first && index <= range.last;
-  });
-  return row != std::end(standard) ? row->name : std::string_view();
+  const Standard* const row = standard_of(index);
+  return row != nullptr ? row->name : std::string_view();
+}
+
+std::string_view signature_of(std::uint16_t index, std::uint8_t sub_index) {
+  return sub_index == 0 ? "" : index == 0x1010 ? "save" : index == 0x1011 ? "load" : "";
 }
 
 std::string key_of(std::uint16_t index, std::uint8_t sub_index, bool has_sub_objects) {
@@ -219,7 +222,9 @@ std::string Description::object(std::uint16_t index, std::uint8_t sub_index) con
 std::optional<ValueType> Description::type_of(std::uint16_t index, std::uint8_t sub_index) const {
   const codict::Entry* const entry = device_ != nullptr ? device_->find(index, sub_index) : nullptr;
   if (entry == nullptr) {
-    return std::nullopt;
+    const std::string_view type = standard_type(index, sub_index);
+    const bool is_hex = type.substr(0, 1) == "x";
+    return value_type(is_hex ? 'u' + std::string(type.substr(1)) : std::string(type));
   }
   const codict::DataType& type = codict::data_type_of(*device_, entry->data_type.value);
   const unsigned bytes = (type.bits + 7U) / 8U;
@@ -252,11 +257,16 @@ std::string Description::show(std::uint16_t index, std::uint8_t sub_index, const
            (is_wrong_length ? fmt::format(" ({} byte{} instead of {})", bytes.size(), plural, type->size) : "");
   }
   if (type->kind == ValueType::Kind::unsigned_integer && is_hexadecimal(index, sub_index)) {
-    return guessed(bytes);
+    const std::string_view signature = signature_of(index, sub_index);
+    const bool is_signature = std::equal(bytes.begin(), bytes.end(), signature.begin(), signature.end());
+    return guessed(bytes) + (is_signature ? fmt::format(" ({})", signature) : "");
   }
-  const codict::Entry& entry = *device_->find(index, sub_index);
-  const std::string_view name = name_of_value(*device_, entry, shown.text);
-  return physical(entry, shown.text) + (name.empty() ? "" : fmt::format(" ({})", name));
+  const codict::Entry* const entry = device_ != nullptr ? device_->find(index, sub_index) : nullptr;
+  if (entry == nullptr) {
+    return shown.text;
+  }
+  const std::string_view name = name_of_value(*device_, *entry, shown.text);
+  return physical(*entry, shown.text) + (name.empty() ? "" : fmt::format(" ({})", name));
 }
 
 std::optional<Description> read_description(const std::string& path, std::string& why) {

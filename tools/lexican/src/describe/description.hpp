@@ -19,10 +19,14 @@ namespace lexican::describe {
 /// Returns the name of an object of CiA 301, such as "device type"; empty for others.
 std::string_view standard_name(std::uint16_t index, std::uint8_t sub_index);
 
+/// Returns the word that has to be written to an entry: "save" to 1010h, "load" to 1011h; empty for others.
+/// [301:7.5.2.13, 7.5.2.14]
+std::string_view signature_of(std::uint16_t index, std::uint8_t sub_index);
+
 /// Returns "1018h:04", or "6060h" for an object without sub-objects.
 std::string key_of(std::uint16_t index, std::uint8_t sub_index, bool has_sub_objects);
 
-/// A described device. Without a description it knows the objects of CiA 301 only.
+/// A described device. Objects of CiA 301 that are not described have their standard name and type.
 class Description {
  public:
   Description() = default;

@@ -72,7 +72,8 @@ void flush(host_bus::Bus& bus, BusHost& host) {
 }
 
 /// Waits until the error control of the device shows the state.
-int wait_for_state(host_bus::Bus& bus, BusHost& host, std::uint8_t node, const Command& command, Micros timeout) {
+int wait_for_state(host_bus::Bus& bus, BusHost& host, std::uint8_t node, const Command& command, Micros timeout,
+                   bool is_json) {
   const Micros begin = host.now();
   std::uint8_t last = 0xFF;
   while (host.now() - begin < timeout && !host.interrupted()) {
@@ -82,6 +83,9 @@ int wait_for_state(host_bus::Bus& bus, BusHost& host, std::uint8_t node, const C
       }
       last = entry->frame.Data[0] & 0x7FU;
       if (last == command.state) {
+        if (!is_json) {
+          print(fmt::format("node {} {}\n", node, last == 0 ? "has booted" : "is " + state_text(last)));
+        }
         return ok;
       }
     }
@@ -141,7 +145,10 @@ int run(const Options& options) {
   if (is_all) {
     flush(*bus, host);
   }
-  status = is_all ? ok : wait_for_state(*bus, host, node, *chosen, timeout);
+  status = is_all ? ok : wait_for_state(*bus, host, node, *chosen, timeout, options.common.is_json);
+  if (status == ok && is_all && !options.common.is_json) {
+    print(fmt::format("{} was sent to all nodes\n", chosen->name));
+  }
   if (options.common.is_json) {
     const nlohmann::json json = {{"command", chosen->name}, {"node", options.node}, {"done", status == ok}};
     print(json.dump() + '\n');

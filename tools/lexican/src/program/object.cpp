@@ -148,8 +148,33 @@ void add_transfer_options(Arguments& arguments, TransferOptions& options) {
   add_bus_options(arguments, options.common);
   add_eds_option(arguments, options.common);
   add_timeout_option(arguments, options.common, 1000);
-  arguments.add_option("--type", options.type,
-                       "Type of the value: " + std::string(value_type_names) + "; default: that of the description");
+  arguments.add_option(
+      "--type", options.type,
+      "Type of the value: " + std::string(value_type_names) + "; default: that of the description, or of CiA 301");
+}
+
+std::string type_text(const ValueType& type) {
+  const std::string bits = std::to_string(8 * type.size);
+  switch (type.kind) {
+    case ValueType::Kind::unsigned_integer: return "u" + bits;
+    case ValueType::Kind::integer: return "i" + bits;
+    case ValueType::Kind::real: return "r" + bits;
+    case ValueType::Kind::boolean: return "bool";
+    case ValueType::Kind::text: return "string";
+    default: return "bytes";
+  }
+}
+
+std::string shown(const Target& target, const Bytes& data) {
+  if (!target.is_type_given) {
+    return target.network.of(target.node).show(target.object.index, target.object.sub_index, data);
+  }
+  const Shown value = show(*target.type, data);
+  return value.fault.empty() ? value.text : value.fault + ": " + guess(data);
+}
+
+std::string line_of(const Target& target, const Bytes& data) {
+  return target.name + " = " + shown(target, data) + (target.type ? " (" + type_text(*target.type) + ")" : "") + '\n';
 }
 
 bool prepare(const TransferOptions& options, Target& target) {
@@ -168,6 +193,7 @@ bool prepare(const TransferOptions& options, Target& target) {
     return false;
   }
   target.name = description.object(target.object.index, target.object.sub_index);
+  target.is_type_given = !options.type.empty();
   target.type = options.type.empty() ? description.type_of(target.object.index, target.object.sub_index)
                                      : value_type(options.type);
   if (!options.type.empty() && !target.type) {

@@ -19,35 +19,13 @@ struct Options : TransferOptions {
   std::uint32_t most = 16 * 1024 * 1024;
 };
 
-std::string type_text(const ValueType& type) {
-  const std::string bits = std::to_string(8 * type.size);
-  switch (type.kind) {
-    case ValueType::Kind::unsigned_integer: return "u" + bits;
-    case ValueType::Kind::integer: return "i" + bits;
-    case ValueType::Kind::real: return "r" + bits;
-    case ValueType::Kind::boolean: return "bool";
-    case ValueType::Kind::text: return "string";
-    default: return "bytes";
-  }
-}
-
-/// Returns the value as text. A value without a type, or of another length than its type, is shown by its bytes.
-std::string shown(const Target& target, const TransferOptions& options, const Bytes& data) {
-  if (options.type.empty()) {
-    return target.network.of(target.node).show(target.object.index, target.object.sub_index, data);
-  }
-  const Shown value = show(*target.type, data);
-  return value.fault.empty() ? value.text : value.fault + ": " + guess(data);
-}
-
-void print_json_value(const Target& target, const TransferOptions& options, const Bytes& data) {
+void print_json_value(const Target& target, const Bytes& data) {
   std::string hex;
   for (const std::uint8_t byte : data) {
     hex += fmt::format("{:02X}", byte);
   }
-  nlohmann::json json = {
-      {"node", target.node},   {"index", target.object.index},          {"sub", target.object.sub_index},
-      {"object", target.name}, {"value", shown(target, options, data)}, {"data", hex}};
+  nlohmann::json json = {{"node", target.node},   {"index", target.object.index}, {"sub", target.object.sub_index},
+                         {"object", target.name}, {"value", shown(target, data)}, {"data", hex}};
   if (target.type) {
     json["type"] = type_text(*target.type);
   }
@@ -97,11 +75,10 @@ int run(const Options& options) {
     return write_output(options.output, transfer.data);
   }
   if (options.common.is_json) {
-    print_json_value(target, options, transfer.data);
+    print_json_value(target, transfer.data);
     return ok;
   }
-  const std::string type = target.type ? " (" + type_text(*target.type) + ")" : "";
-  print(target.name + " = " + shown(target, options, transfer.data) + type + '\n');
+  print(line_of(target, transfer.data));
   return ok;
 }
 

@@ -69,10 +69,18 @@ void add_transfer_options(Arguments& arguments, TransferOptions& options);
 struct Target {
   std::uint8_t node = 0;
   ObjectReference object;
-  std::optional<ValueType> type;  ///< of --type, else of the description
+  std::optional<ValueType> type;  ///< of --type, else of the description or of CiA 301
+  bool is_type_given = false;     ///< by --type
   describe::Network network;
   std::string name;  ///< "606Ch:00 velocity actual value"
 };
+
+/// Returns the name of a type: "u16".
+std::string type_text(const ValueType& type);
+/// Returns the value as text. A value without a type, or of another length than its type, is shown by its bytes.
+std::string shown(const Target& target, const Bytes& data);
+/// Returns "606Ch:00 velocity actual value = 1204 (i32)" and a line end.
+std::string line_of(const Target& target, const Bytes& data);
 
 /// Checks the arguments, and reads the descriptions. Prints the reason if that fails.
 bool prepare(const TransferOptions& options, Target& target);

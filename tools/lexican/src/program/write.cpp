@@ -55,6 +55,10 @@ bool data_of(const Options& options, const Target& target, bool is_forced, Bytes
     data.assign(bytes.begin(), bytes.end());
     return true;
   }
+  if (options.value == describe::signature_of(target.object.index, target.object.sub_index)) {
+    data.assign(options.value.begin(), options.value.end());
+    return true;
+  }
   if (!target.type) {
     print_message("the type of " + target.name + " is unknown; give --type (" + value_type_names + ") or --eds");
     return false;
@@ -105,13 +109,20 @@ int run(const Options& options, bool is_forced) {
     return report_failure(session, target.node, target.name, transfer);
   }
   status = options.verifies ? verify(session, target, options, data) : ok;
-  if (status == ok && options.common.is_json) {
+  if (status != ok) {
+    return status;
+  }
+  if (options.common.is_json) {
     const nlohmann::json json = {
         {"node", target.node},   {"index", target.object.index}, {"sub", target.object.sub_index},
         {"object", target.name}, {"bytes", data.size()},         {"verified", options.verifies}};
     print(json.dump() + '\n');
+  } else if (!options.file.empty()) {
+    print(fmt::format("{}, {} byte{}\n", target.name, data.size(), data.size() == 1 ? "" : "s"));
+  } else {
+    print(line_of(target, data));
   }
-  return status;
+  return ok;
 }
 
 }  // namespace
@@ -127,8 +138,9 @@ Verb add_write(CommandLine& line) {
   arguments.add_flag("--force", *is_forced, "Also beyond the limits of the description");
   arguments.end_help(
       "Examples:\n"
-      "  lexican write 5 1017 500 --type u16 -i can0\n"
+      "  lexican write 5 1017 500 -i can0\n"
       "  lexican write 5 \"profile velocity\" 2000 --verify -i can0 --eds drive.eds\n"
+      "  lexican write 5 1010:1 save -i can0\n"
       "  lexican write 5 1F50:1 --file firmware.bin -i can0");
   return {arguments, [options, is_forced] { return run(*options, *is_forced); }};
 }
