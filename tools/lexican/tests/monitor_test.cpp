@@ -398,6 +398,106 @@ TEST_CASE("monitor: transfers that are open at the end") {
   CHECK(bus.events.size() == 2);
 }
 
+TEST_CASE("monitor: an SDO request without an answer is one event, also if the client aborts it afterwards") {
+  Bus bus;
+  const Bytes abort = {0x80, 0x17, 0x10, 0, 0, 0, 0x04, 0x05};
+  bus.at(1'000'000, 0x605, {0x40, 0x17, 0x10, 0, 0, 0, 0, 0});
+  bus.at(2'000'001, 0x605, abort);
+  CHECK(bus.events == Texts{"!sdo 5 read 1017h:00 producer heartbeat time: no answer"});
+  CHECK(bus.frame(0x605, abort) ==
+        "!sdo 5 SDO transfer of 1017h:00 producer heartbeat time aborted by the client: 0504 0000h protocol timed out");
+  // An abort of another object, of the server, and within the time.
+  bus.at(4'000'000, 0x605, {0x40, 0x17, 0x10, 0, 0, 0, 0, 0});
+  bus.at(6'000'000, 0x605, {0x80, 0x18, 0x10, 1, 0, 0, 0x04, 0x05});
+  CHECK(bus.events.back() ==
+        "!sdo 5 SDO transfer of 1018h:01 vendor-ID aborted by the client: 0504 0000h protocol timed out");
+  bus.at(7'000'000, 0x605, {0x40, 0x17, 0x10, 0, 0, 0, 0, 0});
+  bus.at(8'000'001, 0x585, abort);
+  CHECK(bus.events.back() ==
+        "!sdo 5 SDO transfer of 1017h:00 producer heartbeat time aborted by the server: 0504 0000h protocol timed out");
+  bus.at(9'000'000, 0x605, {0x40, 0x17, 0x10, 0, 0, 0, 0, 0});
+  bus.at(10'000'000, 0x605, abort);
+  CHECK(bus.events.back() ==
+        "!sdo 5 read 1017h:00 producer heartbeat time aborted by the client: 0504 0000h protocol timed out");
+  CHECK(bus.events.size() == 7);
+}
+
+namespace {
+
+/// Requests 1000h of the node-IDs 1 to \a last, 10 ms apart. Nodes 5 and 7 answer, the latter with an abort.
+void scan(Bus& bus, Micros begin, unsigned last = 127) {
+  for (unsigned node = 1; node <= last; ++node) {
+    bus.at(begin + node * 10'000, 0x600 + node, {0x40, 0x00, 0x10, 0, 0, 0, 0, 0});
+    if (node == 5) {
+      bus.frame(0x585, {0x43, 0x00, 0x10, 0, 0x92, 0x01, 0, 0});
+    } else if (node == 7) {
+      bus.frame(0x587, {0x80, 0x00, 0x10, 0, 0, 0, 0x02, 0x06});
+    }
+  }
+}
+
+const Texts answers = {"sdo 5 read 1000h:00 device type = 00000192h",
+                       "!sdo 7 read 1000h:00 device type refused: 0602 0000h object does not exist"};
+const std::string scanned = "sdo 0 scan: 1000h requested at 127 node-IDs, 2 answered";
+
+}  // namespace
+
+TEST_CASE("monitor: the requests of a scan without an answer are one event") {
+  const Texts expected = {answers[0], answers[1], scanned};
+  Bus bus;
+  scan(bus, 1'000'000);
+  bus.monitor.expire(3'269'999);
+  CHECK(bus.events == answers);
+  SUBCASE("by the time") { bus.monitor.expire(3'270'001); }
+  SUBCASE("by the next frame") {
+    bus.at(3'270'001, 0x081, {0, 0, 0, 0, 0, 0, 0, 0});
+    CHECK(bus.events.back() == "emcy 1 EMCY 0000h error reset, error register 00h");
+    bus.events.pop_back();
+  }
+  SUBCASE("at the end of the log") { bus.monitor.finish(); }
+  CHECK(bus.events == expected);
+}
+
+TEST_CASE("monitor: a second scan at once, and a request after a scan") {
+  Bus bus;
+  scan(bus, 1'000'000);
+  scan(bus, 2'280'000);
+  bus.monitor.expire(9'000'000);
+  CHECK(bus.events == Texts{answers[0], answers[1], scanned, answers[0], answers[1], scanned});
+  bus.at(10'000'000, 0x609, {0x40, 0x00, 0x10, 0, 0, 0, 0, 0});
+  bus.monitor.expire(12'000'000);
+  CHECK(bus.events.back() == "!sdo 9 read 1000h:00 device type: no answer");
+  CHECK(bus.events.size() == 7);
+}
+
+TEST_CASE("monitor: requests of 1000h from a few nodes, or with an answer of each, are no scan") {
+  Bus bus;
+  scan(bus, 1'000'000, 15);
+  bus.monitor.expire(9'000'000);
+  CHECK(bus.events.size() == 15);
+  CHECK(bus.events[2] == "!sdo 1 read 1000h:00 device type: no answer");
+  bus.events.clear();
+  for (unsigned node = 1; node <= 127; ++node) {
+    bus.frame(0x600 + node, {0x40, 0x00, 0x10, 0, 0, 0, 0, 0});
+    bus.frame(0x580 + node, {0x43, 0x00, 0x10, 0, 0x92, 0x01, 0, 0});
+  }
+  bus.monitor.finish();
+  CHECK(bus.events.size() == 127);
+  CHECK(bus.events.back() == "sdo 127 read 1000h:00 device type = 00000192h");
+}
+
+TEST_CASE("monitor: a scan whose client aborts each request") {
+  Bus bus;
+  for (unsigned node = 1; node <= 20; ++node) {
+    bus.frame(0x600 + node, {0x40, 0x00, 0x10, 0, 0, 0, 0, 0});
+  }
+  for (unsigned node = 1; node <= 20; ++node) {
+    CHECK(bus.frame(0x600 + node, {0x80, 0x00, 0x10, 0, 0, 0, 0x04, 0x05}) == "-");
+  }
+  bus.monitor.finish();
+  CHECK(bus.events == Texts{"sdo 0 scan: 1000h requested at 20 node-IDs, 0 answered"});
+}
+
 TEST_CASE("monitor: error frames of SocketCAN") {
   Bus bus;
   CHECK(bus.frame(0x020 | error, {0, 0, 0, 0, 0, 0, 0, 0}) == "!error 0 bus: nobody acknowledges");

@@ -17,6 +17,7 @@ constexpr std::uint32_t extended = 0x20000000;  // bit of a COB-ID
 constexpr std::uint16_t known_state = 0x100;
 constexpr unsigned most_mapped = 64;  // values above are those of multiplexed PDOs
 constexpr Micros error_repetition = 1'000'000;
+constexpr std::size_t fewest_scanned = 16;  // fewer uploads of 1000h are those of a master from its devices
 
 const trace::Names no_names;
 
@@ -219,7 +220,7 @@ void Monitor::process(const host_bus::Entry& received) {
   host_bus::Entry entry = received;
   entry.frame.DLC = std::min<std::uint8_t>(entry.frame.DLC, 8);  // 9 to 15 stand for 8 bytes
   count(entry);
-  if (open_servers_ > 0) {
+  if (open_servers_ > 0 || scan_.nodes.any()) {
     expire(entry.time);
   }
   Event event;
@@ -348,6 +349,10 @@ bool Monitor::sdo(const host_bus::Entry& entry) {
   if (transfer) {
     report(node, *transfer, entry.time);
   }
+  constexpr std::uint32_t upload_of_type = 0x00100040;
+  if ((frame.Identifier & 0x780U) == 0x600 && CO_GET_LONG(&frame, 0) == upload_of_type) {
+    note_scan(node, entry.time);
+  }
   return was_followed;
 }
 
@@ -360,6 +365,44 @@ void Monitor::expire(Micros now) {
       report(node, *transfer, now);
     }
   }
+  if (now > scan_.last && now - scan_.last > SdoFollower::answer_time) {
+    finish_scan(now);
+  }
+}
+
+void Monitor::note_scan(std::uint8_t node, Micros time) {
+  const bool is_late = time < scan_.last || time - scan_.last > SdoFollower::answer_time;
+  if (is_late || scan_.nodes.test(node)) {
+    finish_scan(time);
+  }
+  scan_.nodes.set(node);
+  scan_.last = time;
+  scanned_.reset(node);
+  if (scan_.nodes.count() >= fewest_scanned) {
+    scanned_ |= scan_.nodes;
+  }
+}
+
+void Monitor::finish_scan(Micros time) {
+  const Scan scan = std::exchange(scan_, {});
+  const std::size_t requested = scan.nodes.count();
+  if (requested < fewest_scanned || scan.answered == requested) {
+    return;
+  }
+  Event event;
+  event.time = time;
+  event.service = Service::sdo;
+  event.text = fmt::format("scan: 1000h requested at {} node-IDs, {} answered", requested, scan.answered);
+  show_(event);
+}
+
+/// Counts the answers to a scan.
+/// \retval true  the transfer is a request of a scan without an answer
+bool Monitor::is_scanned(std::uint8_t node, const SdoTransfer& transfer) {
+  const bool is_of_type = transfer.index == 0x1000 && transfer.sub_index == 0 && !transfer.is_download;
+  const bool is_answered = transfer.is_answered || transfer.end == SdoTransfer::End::refused;
+  scan_.answered += is_of_type && is_answered && scan_.nodes.test(node) ? 1U : 0U;
+  return is_of_type && !is_answered && scanned_.test(node);
 }
 
 void Monitor::finish() {
@@ -369,6 +412,7 @@ void Monitor::finish() {
     }
   }
   open_servers_ = 0;
+  finish_scan(statistics_.last);
 }
 
 /// Returns the bytes of a transfer without those that, for the type of the object, an expedited transfer without size
@@ -380,6 +424,9 @@ Bytes Monitor::value_in(const Description& description, const SdoTransfer& trans
 }
 
 void Monitor::report(std::uint8_t node, const SdoTransfer& transfer, Micros time) {
+  if (is_scanned(node, transfer)) {
+    return;
+  }
   const Description& description = network_.of(node);
   const std::string reason =
       ": " + trace::abort_code(transfer.abort_code) + ' ' + trace::abort_meaning(transfer.abort_code);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file monitor.hpp
-/// Puts the frames of a bus into words: an event for each message, and one for each SDO transfer. The memory in use
-/// does not depend on the number of frames.
+/// Puts the frames of a bus into words: an event for each message, and one for each SDO transfer. The uploads of 1000h
+/// without an answer by which a program looks for devices are one event. The memory in use does not depend on the
+/// number of frames.
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <functional>
 #include <map>
 #include <set>
@@ -89,11 +91,21 @@ class Monitor {
     bool is_guarding_request = false;  ///< the last message was a remote frame
   };
 
+  /// Uploads of 1000h from different nodes, each within SdoFollower::answer_time after the one before.
+  struct Scan {
+    std::bitset<128> nodes;
+    unsigned answered = 0;
+    Micros last = 0;  ///< request
+  };
+
   void count(const host_bus::Entry& entry);
   void message(Event& event, const CO_IF_FRM& frame);
   const Pdo* pdo_of(const CO_IF_FRM& frame) const;
   bool sdo(const host_bus::Entry& entry);
   void report(std::uint8_t node, const SdoTransfer& transfer, Micros time);
+  void note_scan(std::uint8_t node, Micros time);
+  void finish_scan(Micros time);
+  bool is_scanned(std::uint8_t node, const SdoTransfer& transfer);
   static Bytes value_in(const Description& description, const SdoTransfer& transfer);
   void learn(std::uint8_t node, const SdoTransfer& transfer);
   void describe_pdos(std::uint8_t node, const std::vector<codict::Pdo>& all);
@@ -108,6 +120,8 @@ class Monitor {
   trace::Decoder decoder_;
   std::array<SdoFollower, 128> servers_{};
   unsigned open_servers_ = 0;  ///< with a transfer that has not ended
+  Scan scan_;
+  std::bitset<128> scanned_;  ///< nodes whose last upload of 1000h was one of many
   std::array<ErrorControl, 128> error_control_{};
   std::map<PdoKey, Pdo> pdos_;
   std::set<std::pair<std::uint32_t, PdoKey>> by_cob_id_;  ///< valid COB-IDs, which several PDOs can share

@@ -68,6 +68,10 @@ std::optional<SdoTransfer> SdoFollower::abort(bool is_request, const std::uint8_
     transfer_.time = time;
     return end(how, number_at(data + 4));
   }
+  if (is_request && expired_ == number_at(data) >> 8) {
+    expired_.reset();
+    return std::nullopt;
+  }
   SdoTransfer other;
   other.index = static_cast<std::uint16_t>(data[1] | data[2] << 8);
   other.sub_index = data[3];
@@ -171,7 +175,11 @@ std::optional<SdoTransfer> SdoFollower::response(const std::uint8_t* data) {
 }
 
 std::optional<SdoTransfer> SdoFollower::expire(Micros now) {
-  return is_active() && now > transfer_.time && now - transfer_.time > answer_time ? close() : std::nullopt;
+  if (!is_active() || now <= transfer_.time || now - transfer_.time <= answer_time) {
+    return std::nullopt;
+  }
+  expired_ = transfer_.index | static_cast<std::uint32_t>(transfer_.sub_index) << 16;
+  return close();
 }
 
 std::optional<SdoTransfer> SdoFollower::close() {
@@ -184,6 +192,7 @@ std::optional<SdoTransfer> SdoFollower::done_if(bool is_done) {
 
 void SdoFollower::begin(const std::uint8_t* data, bool is_download, Micros time) {
   transfer_ = {};
+  expired_.reset();
   transfer_.index = static_cast<std::uint16_t>(data[1] | data[2] << 8);
   transfer_.sub_index = data[3];
   transfer_.is_download = is_download;

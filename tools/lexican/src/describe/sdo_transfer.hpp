@@ -32,7 +32,8 @@ struct SdoTransfer {
 };
 
 /// Follows the transfers of one server: expedited, segmented and block transfers. Its memory is bounded. A frame that
-/// does not belong to the open transfer is ignored, such as a late answer to an earlier request.
+/// does not belong to the open transfer is ignored, such as a late answer to an earlier request, or the abort by which
+/// the client ends a transfer that expire() has ended before.
 class SdoFollower {
  public:
   static constexpr std::size_t most_data = 4096;    ///< bytes
@@ -74,6 +75,7 @@ class SdoFollower {
 
   Phase phase_ = Phase::idle;
   SdoTransfer transfer_{};
+  std::optional<std::uint32_t> expired_;  ///< object of the last transfer, if expire() has ended it
   bool was_followed_ = false;
   bool is_expedited_ = false;        ///< a download
   bool is_last_ = false;             ///< the last segment was seen
