@@ -282,14 +282,15 @@ TEST_CASE("lexican read: an abort is shown with object, code, meaning and remedy
   check(bench.run("read", {"5", "2007", "--eds", eds}), 1, "",
         "lexican: node 5, 2007h Password: aborted with 0601 0001h object is write-only; the object can only be "
         "written\n");
-  check(
-      bench.run("read", {"5", "3000"}), 1, "",
-      "lexican: node 5, 3000h:00: aborted with 0602 0000h object does not exist; the description may belong to another "
-      "version of the device; compare 1018h\n");
+  check(bench.run("read", {"5", "3000"}), 1, "",
+        "lexican: node 5, 3000h:00: aborted with 0602 0000h object does not exist; the manual or the EDS of the device "
+        "lists its objects\n");
   check(bench.run("read", {"5", "1018:9"}), 1, "",
-        "lexican: node 5, 1018h:09 identity object: aborted with 0609 0011h sub-index does not exist; the description "
-        "may "
-        "belong to another version of the device; compare 1018h\n");
+        "lexican: node 5, 1018h:09 identity object: aborted with 0609 0011h sub-index does not exist; the manual "
+        "or the EDS of the device lists its objects\n");
+  check(bench.run("read", {"5", "3000", "--eds", eds}), 1, "",
+        "lexican: node 5, 3000h:00: aborted with 0602 0000h object does not exist; the description may belong to "
+        "another version of the device; compare 1018h\n");
   check(
       bench.run("write", {"5", "2006", "1", "--eds", eds}), 1, "",
       "lexican: node 5, 2006h Cycle count: aborted with 0601 0002h object is read-only; the object can only be read\n");
@@ -453,10 +454,9 @@ TEST_CASE("lexican read, write: --json") {
         "\n",
         "");
   CHECK(fault_of(write.out, "write") == "");
-  check(
-      bench.run("read", {"5", "3000", "--json"}), 1, "",
-      "lexican: node 5, 3000h:00: aborted with 0602 0000h object does not exist; the description may belong to another "
-      "version of the device; compare 1018h\n");
+  check(bench.run("read", {"5", "3000", "--json"}), 1, "",
+        "lexican: node 5, 3000h:00: aborted with 0602 0000h object does not exist; the manual or the EDS of the device "
+        "lists its objects\n");
 }
 
 TEST_CASE("lexican: the check of a JSON schema finds faults") {
@@ -477,7 +477,8 @@ TEST_CASE("lexican nmt: a command waits for the state that it causes") {
   check(bench.run("write", {"5", "1017", "50"}), 0, heartbeat, "");
   check(bench.run("nmt", {"start", "5", "--timeout", "30000"}), 0, "node 5 is operational\n", "");
   check(bench.run("nmt", {"stop", "5", "--timeout", "30000"}), 0, "node 5 is stopped\n", "");
-  CHECK(bench.run("read", {"5", "1000", "--timeout", "50"}).status == 3);
+  check(bench.run("read", {"5", "1000", "--timeout", "1000"}), 3, "",
+        "lexican: node 5 is stopped and answers no SDO: lexican nmt preop 5\n");
   check(bench.run("nmt", {"preop", "5", "--timeout", "30000"}), 0, "node 5 is pre-operational\n", "");
   check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h (u32)\n", "");
   const Ran json = bench.run("nmt", {"start", "5", "--timeout", "30000", "--json"});
@@ -489,11 +490,23 @@ TEST_CASE("lexican nmt: a command waits for the state that it causes") {
 
 TEST_CASE("lexican nmt: the state of a device without heartbeat is unknown") {
   const Bench bench{5};
-  check(bench.run("nmt", {"start", "5", "--timeout", "50"}), 0, "",
-        "lexican: sent; node 5 sends no heartbeat, so its state is unknown (1017h switches it on)\n");
+  check(bench.run("nmt", {"start", "5", "--timeout", "500"}), 0, "",
+        "lexican: sent; node 5 has sent no heartbeat, so its state is unknown; lexican write 5 1017 1000 switches it "
+        "on\n");
+  check(bench.run("nmt", {"stop", "5", "--timeout", "50"}), 0, "",
+        "lexican: sent; node 5 has sent no heartbeat, so its state is unknown\n");
+  check(bench.run("nmt", {"preop", "9", "--timeout", "50"}), 3, "",
+        "lexican: sent; node 9 has sent no heartbeat, and does not answer; lexican scan shows who answers\n");
   check(bench.run("nmt", {"reset", "9", "--timeout", "50"}), 3, "",
-        "lexican: sent; node 9 sends no heartbeat, so its state is unknown (1017h switches it on)\n");
+        "lexican: sent; node 9 has sent no boot-up message within 50 ms\n");
   check(bench.run("nmt", {"start", "200"}), 2, "", "lexican: '200' is no node-ID, which is 1 to 127, or all\n");
+}
+
+TEST_CASE("lexican nmt: a heartbeat that is slower than --timeout is waited for") {
+  const Bench bench{5};
+  CHECK(bench.run("write", {"5", "1017", "4000"}).status == 0);
+  check(bench.run("nmt", {"start", "5", "--timeout", "1000"}), 0, "node 5 is operational\n",
+        "lexican: waiting for the heartbeat of node 5, which it sends every 4000 ms\n");
 }
 
 TEST_CASE("lexican nmt: all nodes, without a question on a simulated bus") {

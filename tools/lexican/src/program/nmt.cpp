@@ -6,8 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "program/bus_host.hpp"
-#include "program/verb.hpp"
+#include "program/session.hpp"
 
 namespace lexican::program {
 namespace {
@@ -71,41 +70,90 @@ void flush(host_bus::Bus& bus, BusHost& host) {
   }
 }
 
+constexpr std::uint8_t no_state = 0xFF;
+
 /// Waits until the error control of the device shows the state.
-int wait_for_state(host_bus::Bus& bus, BusHost& host, std::uint8_t node, const Command& command, Micros timeout,
-                   bool is_json) {
-  const Micros begin = host.now();
-  std::uint8_t last = 0xFF;
-  while (host.now() - begin < timeout && !host.interrupted()) {
-    while (const std::optional<host_bus::Entry> entry = bus.receive()) {
-      if (entry->frame.Identifier != 0x700U + node || entry->frame.DLC != 1) {
-        continue;
-      }
-      last = entry->frame.Data[0] & 0x7FU;
-      if (last == command.state) {
-        if (!is_json) {
-          print(fmt::format("node {} {}\n", node, last == 0 ? "has booted" : "is " + state_text(last)));
-        }
-        return ok;
+/// \retval last state  no_state: none was received
+std::uint8_t wait_for_state(Session& session, std::uint8_t node, std::uint8_t state, Micros timeout) {
+  const Micros begin = session.host().now();
+  std::uint8_t last = no_state;
+  while (last != state && session.host().now() - begin < timeout && !session.host().interrupted()) {
+    while (const std::optional<host_bus::Entry> entry = session.bus().receive()) {
+      if (last != state && entry->frame.Identifier == 0x700U + node && entry->frame.DLC == 1) {
+        last = entry->frame.Data[0] & 0x7FU;
       }
     }
-    host.wait(10 * millisecond);
+    if (last != state) {
+      session.host().wait(10 * millisecond);
+    }
   }
-  if (Interruption::happened()) {
+  return last;
+}
+
+/// Heartbeat time of a device, read from 1017h.
+struct HeartbeatTime {
+  bool is_answered = false;           ///< the device has answered the request, or was not asked
+  std::optional<std::uint32_t> time;  ///< ms; 0: off
+};
+
+HeartbeatTime read_heartbeat_time(Session& session, std::uint32_t timeout) {
+  const Transfer transfer = session.sdo().upload(0x1017, 0, {SdoClient::small, timeout, {}});
+  const bool is_number = transfer.done() && transfer.data.size() == 2;
+  return {
+      transfer.code != CO_SDO_ERR_TIMEOUT,
+      is_number ? std::optional(transfer.data[0] | static_cast<std::uint32_t>(transfer.data[1]) << 8) : std::nullopt};
+}
+
+/// Prints why the state of a device is unknown.
+int report_unknown(std::uint8_t node, const Command& command, std::uint32_t timeout, const HeartbeatTime& heartbeat) {
+  const std::string sent = fmt::format("sent; node {} has sent no ", node);
+  if (command.state == 0) {
+    print_message(sent + fmt::format("boot-up message within {} ms", timeout));
+    return no_answer;
+  }
+  if (!heartbeat.is_answered) {
+    print_message(sent + "heartbeat, and does not answer; lexican scan shows who answers");
+    return no_answer;
+  }
+  print_message(sent + "heartbeat, so its state is unknown" +
+                (!heartbeat.time.has_value() ? ""
+                 : *heartbeat.time == 0      ? fmt::format("; lexican write {} 1017 1000 switches it on", node)
+                                             : fmt::format(", although 1017h is {} ms", *heartbeat.time)));
+  return ok;
+}
+
+/// Waits for the state, and prints whether the device has it. A heartbeat may be slower than --timeout.
+int report_state(Session& session, std::uint8_t node, const Command& command, const Common& common) {
+  std::uint8_t last = wait_for_state(session, node, command.state, common.timeout * millisecond);
+  const bool is_sdo_possible = command.state == 0x05 || command.state == 0x7F;
+  HeartbeatTime heartbeat{true, std::nullopt};
+  if (last == no_state && is_sdo_possible && !session.host().interrupted()) {
+    heartbeat = read_heartbeat_time(session, common.timeout);
+    const std::uint32_t time = heartbeat.time.value_or(0);
+    if (time != 0) {
+      print_message(fmt::format("waiting for the heartbeat of node {}, which it sends every {} ms", node, time));
+      last = wait_for_state(session, node, command.state, (time + time / 2) * millisecond);
+    }
+  }
+  if (session.is_interrupted()) {
     print_message("interrupted; the command was sent");
     return interrupted;
   }
-  if (!bus.fault().empty()) {
-    print_message(bus.fault());
+  if (!session.bus().fault().empty()) {
+    print_message(session.bus().fault());
     return bus_fault;
   }
-  if (last == 0xFF) {
-    print_message(
-        fmt::format("sent; node {} sends no heartbeat, so its state is unknown (1017h switches it on)", node));
-    return command.state == 0 ? no_answer : ok;
+  if (last == no_state) {
+    return report_unknown(node, command, common.timeout, heartbeat);
   }
-  print_message(fmt::format("node {} is {}, not {}", node, state_text(last), state_text(command.state)));
-  return refused;
+  if (last != command.state) {
+    print_message(fmt::format("node {} is {}, not {}", node, state_text(last), state_text(command.state)));
+    return refused;
+  }
+  if (!common.is_json) {
+    print(fmt::format("node {} {}\n", node, last == 0 ? "has booted" : "is " + state_text(last)));
+  }
+  return ok;
 }
 
 int run(const Options& options) {
@@ -134,18 +182,18 @@ int run(const Options& options) {
       return usage;
     }
   }
-  const Interruption interruption;
-  BusHost host(*bus, interruption);
+  Session session(std::move(bus), is_all ? std::uint8_t{127} : node);
   const Micros timeout = options.common.timeout * millisecond;
   const CO_IF_FRM frame = {0, {static_cast<std::uint8_t>(chosen->specifier), node}, 2};
-  if (!send(*bus, host, frame, timeout)) {
-    print_message("the command was not sent: " + (bus->fault().empty() ? "the bus accepts no frames" : bus->fault()));
-    return Interruption::happened() ? interrupted : bus_fault;
+  if (!send(session.bus(), session.host(), frame, timeout)) {
+    const std::string& fault = session.bus().fault();
+    print_message("the command was not sent: " + (fault.empty() ? "the bus accepts no frames" : fault));
+    return session.is_interrupted() ? interrupted : bus_fault;
   }
   if (is_all) {
-    flush(*bus, host);
+    flush(session.bus(), session.host());
   }
-  status = is_all ? ok : wait_for_state(*bus, host, node, *chosen, timeout, options.common.is_json);
+  status = is_all ? ok : report_state(session, node, *chosen, options.common);
   if (status == ok && is_all && !options.common.is_json) {
     print(fmt::format("{} was sent to all nodes\n", chosen->name));
   }

@@ -74,12 +74,14 @@ std::string listed(const std::vector<Named>& names, const describe::Description&
   return text + (names.size() > most_shown ? fmt::format("\n  and {} more", names.size() - most_shown) : "");
 }
 
-const char* remedy_for(std::uint32_t code) {
+const char* remedy_for(std::uint32_t code, bool is_described) {
   switch (code) {
     case CO_SDO_ERR_TIMEOUT:
       return "is it on this bus, with power, and at this bit rate? lexican scan shows who answers";
     case CO_SDO_ERR_OBJ:
-    case CO_SDO_ERR_SUB: return "the description may belong to another version of the device; compare 1018h";
+    case CO_SDO_ERR_SUB:
+      return is_described ? "the description may belong to another version of the device; compare 1018h"
+                          : "the manual or the EDS of the device lists its objects";
     case CO_SDO_ERR_LEN:
     case CO_SDO_ERR_LEN_HIGH:
     case CO_SDO_ERR_LEN_SMALL: return "give the type of the object by --type";
@@ -203,7 +205,9 @@ bool prepare(const TransferOptions& options, Target& target) {
   return true;
 }
 
-int report_failure(Session& session, std::uint8_t node, const std::string& object, const Transfer& transfer) {
+int report_failure(Session& session, const Target& target, const Transfer& transfer) {
+  const bool is_described = target.network.of(target.node).device() != nullptr;
+  const char* const remedy = remedy_for(transfer.code, is_described);
   if (session.is_interrupted()) {
     print_message("interrupted; the transfer was aborted");
     return interrupted;
@@ -213,11 +217,12 @@ int report_failure(Session& session, std::uint8_t node, const std::string& objec
     return bus_fault;
   }
   if (transfer.code == CO_SDO_ERR_TIMEOUT) {
-    print_message(fmt::format("node {} does not answer; {}", node, remedy_for(transfer.code)));
+    print_message(session.is_stopped()
+                      ? fmt::format("node {0} is stopped and answers no SDO: lexican nmt preop {0}", target.node)
+                      : fmt::format("node {} does not answer; {}", target.node, remedy));
     return no_answer;
   }
-  const char* const remedy = remedy_for(transfer.code);
-  print_message(fmt::format("node {}, {}: {}", node, object, transfer.outcome()) +
+  print_message(fmt::format("node {}, {}: {}", target.node, target.name, transfer.outcome()) +
                 (remedy != nullptr ? std::string("; ") + remedy : ""));
   return transfer.fault.empty() ? refused : bus_fault;
 }

@@ -69,7 +69,7 @@ int run(const Options& options) {
       print_message(fmt::format("{} has more than {} bytes; allow more by --most", target.name, options.most));
       return refused;
     }
-    return report_failure(session, target.node, target.name, transfer);
+    return report_failure(session, target, transfer);
   }
   if (!options.output.empty()) {
     return write_output(options.output, transfer.data);

@@ -16,7 +16,12 @@ class Session {
       : bus_(std::move(bus)),
         dictionary_(server),
         node_({server == 127 ? std::uint8_t{126} : std::uint8_t{127}, host_.master_can(), host_.master_timer(),
-               dictionary_.table()}) {
+               dictionary_.table(),
+               [this, server](bool is_received, const CO_IF_FRM& frame) {
+                 const bool is_state = is_received && frame.Identifier == 0x700U + server && frame.DLC == 1;
+                 is_stopped_ = is_state ? (frame.Data[0] & 0x7FU) == 0x04 : is_stopped_;
+               },
+               true}) {
     CONodeStart(&node_.stack());
   }
   /// Sends what is queued, such as an abort, for at most 100 ms.
@@ -29,6 +34,8 @@ class Session {
   Loop& loop() { return loop_; }
   host_bus::Bus& bus() { return *bus_; }
   BusHost& host() { return host_; }
+  /// Returns true if the last heartbeat of the server during the transfers has the state Stopped.
+  bool is_stopped() const { return is_stopped_; }
   bool is_interrupted() const { return Interruption::happened(); }
 
  private:
@@ -36,14 +43,11 @@ class Session {
   std::unique_ptr<host_bus::Bus> bus_;
   BusHost host_{*bus_, interruption_};
   ClientDictionary dictionary_;
+  bool is_stopped_ = false;
   Node node_;
   Loop loop_{host_, {&node_}};
   SdoClient sdo_{node_, loop_};
 };
-
-/// Prints why a transfer of \a object ("606Ch:00 velocity actual value") has failed, and what to try.
-/// \retval status of the program
-int report_failure(Session& session, std::uint8_t node, const std::string& object, const Transfer& transfer);
 
 /// An object of a device.
 struct ObjectReference {
@@ -81,6 +85,10 @@ std::string type_text(const ValueType& type);
 std::string shown(const Target& target, const Bytes& data);
 /// Returns "606Ch:00 velocity actual value = 1204 (i32)" and a line end.
 std::string line_of(const Target& target, const Bytes& data);
+
+/// Prints why a transfer has failed, and what to try.
+/// \retval status of the program
+int report_failure(Session& session, const Target& target, const Transfer& transfer);
 
 /// Checks the arguments, and reads the descriptions. Prints the reason if that fails.
 bool prepare(const TransferOptions& options, Target& target);

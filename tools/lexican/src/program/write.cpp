@@ -78,7 +78,7 @@ int verify(Session& session, const Target& target, const Options& options, const
       session.sdo().upload(target.object.index, target.object.sub_index,
                            {static_cast<std::uint32_t>(data.size() + 1024), options.common.timeout, {}});
   if (!transfer.done()) {
-    return report_failure(session, target.node, target.name, transfer);
+    return report_failure(session, target, transfer);
   }
   if (transfer.data != data) {
     print_message(target.name + " was written, but reads back as " +
@@ -106,7 +106,7 @@ int run(const Options& options, bool is_forced) {
       {SdoClient::small, options.common.timeout, [&](const Amount& amount) { progress.update(amount); }});
   progress.end();
   if (!transfer.done()) {
-    return report_failure(session, target.node, target.name, transfer);
+    return report_failure(session, target, transfer);
   }
   status = options.verifies ? verify(session, target, options, data) : ok;
   if (status != ok) {
