@@ -502,6 +502,8 @@ TEST_CASE("codict convert: each edition of CiA 311 is converted to the other one
   CHECK(run("convert xdd/device10.xdd --to xdd11 -o " + newer).status == 0);
   CHECK(has(run("info " + newer).out, "Format           XDD 1.1\n"));
   CHECK(run("diff xdd/device10.xdd " + newer + " --only breaking --only compatible").status == 0);
+  CHECK(run("diff xdd/device10.xdd " + newer + " --only breaking,compatible").status == 0);
+  CHECK(run("diff xdd/device10.xdd " + newer + " --only breaking,none").status == 2);
   CHECK(run("convert " + newer + " --to xdd11 -o -").out == bytes_of(newer));
   CHECK(run("convert " + newer + " --to xdd10 -o " + older).status == 0);
   CHECK(has(run("info " + older).out, "Format           XDD 1.0\n"));

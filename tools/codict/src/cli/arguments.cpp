@@ -143,7 +143,9 @@ Option Arguments::add_choice(const std::string& names, std::vector<std::string> 
 Option Arguments::add_choices(const std::string& names, std::vector<std::string> words, const std::string& help,
                               const Choose& choose) {
   const auto set = [words, choose](const std::vector<std::string>& given) { choose(positions(words, given)); };
-  Option option{*grammar_, *app_->add_option_function<std::vector<std::string>>(names, set, help)->type_name("ENUM")};
+  Option option{
+      *grammar_,
+      *app_->add_option_function<std::vector<std::string>>(names, set, help)->type_name("ENUM")->delimiter(',')};
   return option.one_of(std::move(words)).single_values();
 }
 

@@ -73,7 +73,7 @@ class Arguments {
       value = choices[chosen.back()].second;
     });
   }
-  /// Option with one of a few words, which may be given several times.
+  /// Option with some of a few words: it may be given several times, and the words may be separated by commas.
   template <typename T>
   Option add_choices(const std::string& names, std::vector<T>& values, const Choices<T>& choices,
                      const std::string& help) {

@@ -63,6 +63,9 @@ std::string escaped(std::string_view text, std::string_view marks) {
   return result;
 }
 
+// Returns the help of an option without the lines that only --help shows.
+std::string first_line(const OptionText& option) { return option.help.substr(0, option.help.find('\n')); }
+
 // Returns 'text', quoted as one word of zsh.
 std::string zsh_word(std::string_view text) {
   std::string word;
@@ -95,8 +98,9 @@ std::string zsh_option(const OptionText& option) {
   }
   std::string lines;
   for (const std::string& name : names) {
-    lines += fmt::format("        {} \\\n", zsh_word(fmt::format("*{}[{}]{}", name, escaped(option.help, "\\[]:"),
-                                                                 option.type.empty() ? "" : zsh_values(option))));
+    lines +=
+        fmt::format("        {} \\\n", zsh_word(fmt::format("*{}[{}]{}", name, escaped(first_line(option), "\\[]:"),
+                                                            option.type.empty() ? "" : zsh_values(option))));
   }
   return lines;
 }
@@ -153,7 +157,7 @@ std::string fish_option(const std::string& program, const OptionText& option, co
   } else if (!option.type.empty()) {
     text += option.type == "UINT" ? " -x" : " -r -F";
   }
-  return text + " -d " + fish_word(option.help) + "\n";
+  return text + " -d " + fish_word(first_line(option)) + "\n";
 }
 
 std::string fish_completion(const CommandLine& line) {
