@@ -174,9 +174,17 @@ TEST_CASE("lexican: the help of each verb has its options and examples") {
     CHECK(ran.status == 0);
     CHECK(ran.err.empty());
     CHECK(has(ran.out, "-i,--bus"));
+    CHECK(std::regex_search(ran.out, std::regex("\n +slcan:/dev/ttyACM0@500k: a serial or USB adapter\n")));
+    CHECK(std::regex_search(ran.out, std::regex("\n +can0: a CAN interface of Linux\n")));
     CHECK(has(ran.out, "--json"));
     CHECK(has(ran.out, std::string("Examples:\n  lexican ") + verb));
   }
+}
+
+TEST_CASE("lexican: completion has the first line of an option's help") {
+  CHECK(has(run({"completion", "zsh"}).out, "[Bus; default\\: $LEXICAN_BUS]"));
+  CHECK(has(run({"completion", "fish"}).out, "'Bus; default: $LEXICAN_BUS'"));
+  CHECK(has(run({"man"}).out, "\n  replay:FILE: a log"));
 }
 
 TEST_CASE("lexican: an unknown verb is refused with the nearest one") {
@@ -213,6 +221,22 @@ TEST_CASE("lexican: a bus that cannot be opened is a bus fault, a wrong rate is 
   CHECK(ran.status == 4);
   CHECK(has(ran.err, "/nonexistent"));
   CHECK(run({"read", "5", "1000", "-i", "nosuchcan7"}).status == 4);
+  check(run({"scan", "-i", "foo:bar"}), 2, "",
+        "lexican: 'foo:bar' is no bus, which is one of:\n"
+        "  hub:bench\n"
+        "  replay:FILE\n"
+        "  socketcand:HOST:29536/can0\n"
+        "  slcan:/dev/ttyACM0@500k\n"
+        "  slcan-tcp:192.168.0.7:29537\n"
+        "  slcan-pty\n"
+        "  can0\n");
+  for (const char* name : {"slcan:/dev/null@77k", "slcan:/dev/null@fast", "slcan-tcp:127.0.0.1:1@77k"}) {
+    CAPTURE(name);
+    CHECK(run({"scan", "-i", name}).status == 2);
+    CHECK(run({"mon", "-i", name}).status == 2);
+  }
+  CHECK(run({"scan", "-i", "slcan:/dev/null", "--rate", "77k"}).status == 2);
+  check(run({"mon", "-i", "replay:/nonexistent.log"}), 2, "", "lexican: /nonexistent.log: No such file or directory\n");
   CHECK(run({"nmt", "start", "5", "-i", "hub:"}).status == 4);
   CHECK(run({"mon", "-i", "socketcand:nowhere"}).status == 4);
   for (const char* rate : {"fast", "0", "2M", "500kk", "-5"}) {
@@ -329,8 +353,9 @@ TEST_CASE("lexican write: values of each type, and what reads back") {
   check(bench.run("write", {"5", "2001", "--eds", eds, "--", "-7"}), 0, "2001h Temperature = -7 (i16)\n", "");
   check(bench.run("read", {"5", "2001", "--type", "i16"}), 0, "2001h:00 = -7 (i16)\n", "");
   check(bench.run("write", {"5", "2001", "FFFF", "--type", "bytes"}), 0, "2001h:00 = FF FF (bytes)\n", "");
-  check(bench.run("read", {"5", "2001", "--type", "u32"}), 0,
-        "2001h:00 = the object has 2 bytes, a value of this type has 4: 0xFFFF (u32)\n", "");
+  check(bench.run("read", {"5", "2001", "--type", "u32"}), 1, "",
+        "lexican: 2001h:00: the object has 2 bytes, a value of this type has 4: 0xFFFF\n");
+  CHECK(bench.run("read", {"5", "2001", "--type", "u32", "--json"}).status == 1);
 }
 
 TEST_CASE("lexican write: a value that does not fit is refused before anything is sent") {
@@ -442,12 +467,31 @@ TEST_CASE("lexican read, write: an interruption aborts the transfer") {
 TEST_CASE("lexican read, write: --json") {
   const Bench bench{5};
   const Ran read = bench.run("read", {"5", "2001", "--eds", eds, "--json"});
-  check(read, 0,
-        R"({"data":"D8FF","index":8193,"node":5,"object":"2001h Temperature","sub":0,"type":"i16","value":"-40"})"
-        "\n",
-        "");
+  check(
+      read, 0,
+      R"({"data":"D8FF","index":8193,"node":5,"object":"2001h Temperature","sub":0,"text":"-40","type":"i16","value":-40})"
+      "\n",
+      "");
   CHECK(fault_of(read.out, "read") == "");
   CHECK(fault_of(bench.run("read", {"5", "2009", "--json"}).out, "read") == "");
+  struct Value {
+    Words words;
+    Json value;
+    std::string text;
+  };
+  for (const Value& each :
+       {Value{{"1018:4"}, 418, "000001A2h"}, Value{{"2003", "--eds", eds}, 0.5, "0.5"},
+        Value{{"2004", "--eds", eds}, true, "1"}, Value{{"1008"}, "SD-400", "\"SD-400\""},
+        Value{{"2002"}, "000003E8h", "000003E8h"}, Value{{"2002", "--type", "u32"}, 1000, "1000"}}) {
+    CAPTURE(each.text);
+    Words words = {"5", "--json"};
+    words.insert(words.end(), each.words.begin(), each.words.end());
+    const Ran ran = bench.run("read", words);
+    CHECK(fault_of(ran.out, "read") == "");
+    const Json json = Json::parse(ran.out);
+    CHECK(json["value"] == each.value);
+    CHECK(json["text"] == each.text);
+  }
   const Ran write = bench.run("write", {"5", "2001", "5", "--eds", eds, "--json", "--verify"});
   check(write, 0,
         R"({"bytes":2,"index":8193,"node":5,"object":"2001h Temperature","sub":0,"verified":true})"
@@ -540,9 +584,9 @@ TEST_CASE("lexican scan: devices with state, profile, identity and name") {
   const Ran ran = bench.run("scan", {"--timeout", "200"});
   CHECK(without_times(ran.out) ==
         "node  state            profile         vendor:product     serial    name\n"
-        "   5  no heartbeat     402 drive       00000100:00000402  000001A2  SD-400\n"
-        "  12  pre-operational  -               -:-  -         \n"
-        " 127  no heartbeat     402 drive       00000100:00000402  000001A2  SD-400\n"
+        "   5  not seen         402 drive       00000100:00000402  000001A2  SD-400\n"
+        "  12  pre-operational  -               -:-                -         \n"
+        " 127  not seen         402 drive       00000100:00000402  000001A2  SD-400\n"
         "3 nodes in T s\n");
   CHECK(ran.err == "");
   CHECK(ran.status == 0);
@@ -641,8 +685,8 @@ TEST_CASE("lexican mon: a log in words, with statistics") {
   const LogBench bench;
   const std::string about = "\n13 frames in 0.101 s";
   check(bench.mon({"--rate", "500k"}), 0,
-        event_text + about + ", bus load 2.5 % of 500 kbit/s, 1 error frames, 0 lost\n" + number_text, "");
-  check(bench.mon({}), 0, event_text + about + ", 1 error frames, 0 lost\n" + number_text, "");
+        event_text + about + ", bus load 2.5 % of 500 kbit/s, 1 error frame, 0 lost\n" + number_text, "");
+  check(bench.mon({}), 0, event_text + about + ", 1 error frame, 0 lost\n" + number_text, "");
   check(bench.run_with_input("mon", {"-", "--eds", "5=" + eds}, bench.log), 0, bench.mon({}).out, "");
   CHECK(has(bench.run("mon", {bench.log}).out, "    0.040   5  TPDO1 D8 FF E8 03 00 00\n"));
 }
@@ -654,10 +698,13 @@ TEST_CASE("lexican mon: filters by node, service and object; --all") {
   CHECK(bench.events({"--service", "emcy", "--service", "error"}) ==
         "    0.070   5  EMCY 4310h temperature, error register 09h\n"
         "    0.080   -  bus: error warning level reached (TEC 96, REC 0)\n");
+  CHECK(bench.events({"--service", "emcy,error"}) == bench.events({"--service", "emcy", "--service", "error"}));
+  CHECK(bench.mon({"--service", "emcy,none"}).status == 2);
   const std::string refused =
       "    0.061   5  write 2008h Mode refused: 0800 0022h data cannot be stored: device state  1.2 ms\n";
   CHECK(bench.events({"--object", "2008"}) == refused);
   CHECK(bench.events({"--object", "Mode", "--service", "sdo", "--node", "5"}) == refused);
+  CHECK(bench.events({"--object", "mODE", "--service", "sdo"}) == refused);
   CHECK(bench.events({"--object", "nothing"}) == "");
   const std::string all = bench.events({"--all"});
   CHECK(has(all, "    0.090   5  heartbeat: operational\n"));

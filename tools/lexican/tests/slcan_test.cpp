@@ -487,6 +487,15 @@ TEST_CASE("slcan: a serial device, pulled out and plugged in again") {
   std::filesystem::remove_all(directory);
 }
 
+TEST_CASE("slcan: a serial device is used by one program at a time") {
+  const Pty pty;
+  const std::string name = "slcan:" + pty.path;
+  std::unique_ptr<Bus> bus = open_good(name);
+  CHECK(error_of(name) == "slcan adapter " + pty.path + ": another program uses it; lexican share hands it to several");
+  bus.reset();
+  open_good(name);
+}
+
 TEST_CASE("slcan: a serial device that does not read does not delay the end of the program for long") {
   Fd device = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   REQUIRE(grantpt(device) == 0);

@@ -37,15 +37,19 @@ class ListeningBus : public Bus {
 
 const std::vector<BusKind> bus_kinds = {
     {"hub:", "hub:bench", "a simulated bus between programs on this machine; it needs nothing else", false,
-     [](const std::string& name, const BusOptions& /*options*/, std::string& why) { return open_hub(name, why); }},
-    {"replay:", "replay:FILE", "a log of candump, pcapng, pcap or ASC; - for standard input", false, open_replay},
+     [](const std::string& name, const BusOptions& /*options*/, std::string& why) { return open_hub(name, why); },
+     nullptr},
+    {"replay:", "replay:FILE", "a log of candump, pcapng, pcap or ASC; - for standard input", false, open_replay,
+     [](const std::string& /*name*/, const BusOptions& /*options*/) { return true; }},
     {"socketcand:", "socketcand:HOST:29536/can0", "a CAN interface of another machine that runs socketcand", false,
-     connect_to_socketcand},
-    {"slcan:", "slcan:/dev/ttyACM0@500k", "a serial or USB adapter", true, open_slcan},
-    {"slcan-tcp:", "slcan-tcp:192.168.0.7:29537", "an slcan adapter behind TCP", true, open_slcan_tcp},
+     connect_to_socketcand, nullptr},
+    {"slcan:", "slcan:/dev/ttyACM0@500k", "a serial or USB adapter", true, open_slcan, has_wrong_slcan_rate},
+    {"slcan-tcp:", "slcan-tcp:192.168.0.7:29537", "an slcan adapter behind TCP", true, open_slcan_tcp,
+     has_wrong_slcan_rate},
     {"slcan-pty", "slcan-pty", "a pseudo-terminal that another program opens as its slcan adapter", false,
-     open_slcan_pty},
-    {"", "can0", "a CAN interface of Linux", false, open_socketcan},
+     open_slcan_pty, nullptr},
+    {"", "can0", "a CAN interface of Linux", false, open_socketcan,
+     [](const std::string& name, const BusOptions& /*options*/) { return name.find(':') != std::string::npos; }},
 };
 
 namespace {
@@ -61,12 +65,24 @@ const BusKind& kind_of(const std::string& name) {
 
 std::unique_ptr<Bus> open_bus(const std::string& name, const BusOptions& options, std::string& why) {
   const BusKind& kind = kind_of(name);
+  if (kind.prefix[0] == '\0' && kind.is_wrong(name, options)) {
+    why = "'" + name + "' is no bus, which is one of:";
+    for (const BusKind& each : bus_kinds) {
+      why += std::string("\n  ") + each.example;
+    }
+    return nullptr;
+  }
   std::unique_ptr<Bus> bus = kind.open(name.substr(std::strlen(kind.prefix)), options, why);
   return bus != nullptr && options.listens_only ? std::make_unique<ListeningBus>(std::move(bus)) : std::move(bus);
 }
 
 bool needs_rate(const std::string& name, const BusOptions& options) {
   return kind_of(name).has_rate && options.bit_rate == 0 && name.find('@') == std::string::npos;
+}
+
+bool is_wrong_name(const std::string& name, const BusOptions& options) {
+  const BusKind& kind = kind_of(name);
+  return kind.is_wrong != nullptr && kind.is_wrong(name.substr(std::strlen(kind.prefix)), options);
 }
 
 }  // namespace lexican::host_bus

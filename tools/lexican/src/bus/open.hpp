@@ -15,6 +15,8 @@ struct BusKind {
   bool has_rate;        ///< the name can end with @RATE
   /// \a name: behind the prefix. Returns null, with the reason in \a why, if it cannot be opened.
   std::unique_ptr<Bus> (*open)(const std::string& name, const BusOptions& options, std::string& why);
+  /// Returns true if open() fails because of the name or \a options, not because of the bus. Null: never.
+  bool (*is_wrong)(const std::string& name, const BusOptions& options);
 };
 
 /// The kinds. The last one has an empty prefix.
@@ -26,6 +28,10 @@ std::unique_ptr<Bus> open_bus(const std::string& name, const BusOptions& options
 
 /// Returns true if the bus is an adapter whose bit rate neither its name nor \a options has.
 bool needs_rate(const std::string& name, const BusOptions& options);
+
+/// Returns true if open_bus() fails because of the name or \a options, not because of the bus: an unknown kind, a bit
+/// rate that the kind does not have, or a log that cannot be read.
+bool is_wrong_name(const std::string& name, const BusOptions& options);
 
 /// Opens an interface of Linux, such as can0.
 /// \retval null  \a why says why
@@ -46,6 +52,9 @@ std::unique_ptr<Bus> connect_to_socketcand(const std::string& name, const BusOpt
 /// Opens a serial device or a Unix socket with an slcan adapter, DEV[@RATE]. Sends C, S0 to S8 (if there is a rate),
 /// and O or L. \retval null  \a why says why
 std::unique_ptr<Bus> open_slcan(const std::string& name, const BusOptions& options, std::string& why);
+
+/// Returns true if the bit rate of a name or of \a options is none, or slcan does not have it.
+bool has_wrong_slcan_rate(const std::string& name, const BusOptions& options);
 
 /// Opens an slcan adapter behind TCP, HOST:PORT[@RATE], and sends the same commands. Waits at most two seconds for the
 /// connection, and for the lookup of the name, which is not repeated by Bus::restore().

@@ -7,10 +7,12 @@
 #include <netdb.h>
 #include <netinet/tcp.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/inotify.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -107,6 +109,24 @@ int open_serial(const std::string& path) {
   tcflush(fd, TCIFLUSH);
   tcsetattr(fd, TCSANOW, &settings);
   return fd;
+}
+
+/// Excludes other programs from a serial device. A pseudo-terminal is only locked: it would remain exclusive after a
+/// program that was killed.
+/// \retval false  another program uses it
+bool make_exclusive(int fd) {
+  if (flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    return false;
+  }
+  constexpr unsigned first_pseudo_terminal = 136;  // major numbers. [linux/major.h]
+  constexpr unsigned last_pseudo_terminal = 143;
+  struct stat about {};
+  fstat(fd, &about);
+  const unsigned kind = major(about.st_rdev);
+  if (kind < first_pseudo_terminal || kind > last_pseudo_terminal) {
+    ioctl(fd, TIOCEXCL);
+  }
+  return true;
 }
 
 bool is_socket(const std::string& path) {
@@ -432,11 +452,17 @@ class SerialBus : public AdapterBus {
     int fd = -1;
     if (!is_socket(path_)) {
       fd = open_serial(path_);
+      if (fd >= 0 && !make_exclusive(fd)) {
+        close(fd);
+        fd = -1;
+        errno = EBUSY;
+      }
     } else if (address_of(path_, address, why)) {
       fd = connect_to(AF_UNIX, reinterpret_cast<const sockaddr*>(&address), sizeof address);
     }
     if (fd < 0 && why.empty()) {
       why = errno == ENOTTY   ? "it is not a serial device"
+            : errno == EBUSY  ? "another program uses it; lexican share hands it to several"
             : errno == EACCES ? "permission denied; join the group that owns it (dialout)"
                               : std::strerror(errno);
     }
@@ -716,6 +742,14 @@ std::unique_ptr<Bus> if_open(std::unique_ptr<T> bus, std::string& why) {
 }
 
 }  // namespace
+
+bool has_wrong_slcan_rate(const std::string& name, const BusOptions& options) {
+  std::string path = name;
+  BusOptions with_rate = options;
+  std::string command;
+  std::string why;
+  return !split_rate(path, with_rate, why) || !rate_command(with_rate.bit_rate, command, why);
+}
 
 std::unique_ptr<Bus> open_slcan(const std::string& name, const BusOptions& options, std::string& why) {
   std::string path = name;

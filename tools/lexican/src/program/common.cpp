@@ -29,9 +29,9 @@ std::string printable(std::string_view text) {
 void add_bus_options(Arguments& arguments, Common& common) {
   std::string kinds;
   for (const host_bus::BusKind& kind : host_bus::bus_kinds) {
-    kinds += (kinds.empty() ? "" : ", ") + std::string(kind.example);
+    kinds += fmt::format("\n  {}: {}", kind.example, kind.about);
   }
-  arguments.add_option("-i,--bus", common.bus, "Bus: " + kinds + "; default: $LEXICAN_BUS");
+  arguments.add_option("-i,--bus", common.bus, "Bus; default: $LEXICAN_BUS" + kinds);
   arguments.add_option("--rate", common.rate, "Bit rate of an adapter, such as 500k; default: found by listening");
   arguments.add_flag("--yes", common.is_sure, "Do not ask before a command that can disturb a physical bus");
   arguments.add_flag("--json", common.is_json, "Print one JSON object in each line");
@@ -121,7 +121,7 @@ std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only,
   }
   std::string why;
   std::unique_ptr<host_bus::Bus> bus = host_bus::open_bus(name, options, why);
-  status = bus_fault;
+  status = host_bus::is_wrong_name(name, options) ? usage : bus_fault;
   if (bus == nullptr) {
     print_message(why);
     return nullptr;

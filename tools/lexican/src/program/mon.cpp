@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -36,6 +37,12 @@ struct Options {
   std::string record;  ///< --log
   bool shows_all = false;
 };
+
+bool contains_ignoring_case(std::string_view text, std::string_view part) {
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  return std::search(text.begin(), text.end(), part.begin(), part.end(),
+                     [&](char a, char b) { return lower(a) == lower(b); }) != text.end();
+}
 
 /// Prints events, as text or as JSON.
 class Printer {
@@ -69,7 +76,7 @@ class Printer {
   bool has_object(const Event& event) const {
     return options_.objects.empty() ||
            std::any_of(options_.objects.begin(), options_.objects.end(),
-                       [&](const std::string& word) { return event.text.find(word) != std::string::npos; });
+                       [&](const std::string& word) { return contains_ignoring_case(event.text, word); });
   }
 
   void print_text(const Event& event) const {
@@ -265,7 +272,7 @@ class Mon {
     if (rate != 0 && duration > 0) {
       print(fmt::format(", bus load {:.1f} % of {} kbit/s", numbers.load(rate), rate / 1000));
     }
-    print(fmt::format(", {} error frames, {} lost\n", numbers.errors, bus.lost()));
+    print(fmt::format(", {} error frame{}, {} lost\n", numbers.errors, numbers.errors == 1 ? "" : "s", bus.lost()));
     if (bus.log() != nullptr && bus.log()->malformed() + bus.log()->other_frames() != 0) {
       print(fmt::format("{} lines are malformed, {} frames are CAN FD or XL\n", bus.log()->malformed(),
                         bus.log()->other_frames()));
@@ -334,7 +341,7 @@ int run(Options& options) {
   int status = ok;
   const std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, true, status);
   if (bus == nullptr) {
-    return options.log.empty() ? status : usage;
+    return status;
   }
   Mon mon(options, network);
   return options.record.empty() || mon.recorder().open(options.record) ? mon.run(*bus) : usage;
@@ -354,8 +361,10 @@ Verb add_mon(CommandLine& line) {
   for (std::size_t n = 0; n < std::size(describe::service_names); ++n) {
     services.emplace_back(describe::service_names[n], static_cast<Service>(n));
   }
-  arguments.add_choices("--service", options->services, services, "Only these services");
-  arguments.add_option("--object", options->objects, "Only lines with this index or name").single_values();
+  arguments.add_choices("--service", options->services, services,
+                        fmt::format("Only these services: {}", fmt::join(describe::service_names, ", ")));
+  arguments.add_option("--object", options->objects, "Only lines with this index or name, in capitals or not")
+      .single_values();
   arguments.add_option("--log", options->record, "Record all frames: FILE.pcapng, else in the format of candump");
   arguments.add_flag("--ack", options->common.acknowledges,
                      "Acknowledge frames, for a device that is alone on the bus");
@@ -363,7 +372,7 @@ Verb add_mon(CommandLine& line) {
   arguments.end_help(
       "Examples:\n"
       "  lexican mon -i can0 --eds 5=drive.eds\n"
-      "  lexican mon -i can0 --service sdo --service emcy --node 5\n"
+      "  lexican mon -i can0 --service sdo,emcy --node 5\n"
       "  lexican mon -i can0 --log fault.pcapng\n"
       "  lexican mon fault.log --eds descriptions");
   return {arguments, [options] { return run(*options); }};

@@ -168,11 +168,8 @@ std::string type_text(const ValueType& type) {
 }
 
 std::string shown(const Target& target, const Bytes& data) {
-  if (!target.is_type_given) {
-    return target.network.of(target.node).show(target.object.index, target.object.sub_index, data);
-  }
-  const Shown value = show(*target.type, data);
-  return value.fault.empty() ? value.text : value.fault + ": " + guess(data);
+  return target.is_type_given ? show(*target.type, data).text
+                              : target.network.of(target.node).show(target.object.index, target.object.sub_index, data);
 }
 
 std::string line_of(const Target& target, const Bytes& data) {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -19,13 +20,35 @@ struct Options : TransferOptions {
   std::uint32_t most = 16 * 1024 * 1024;
 };
 
+/// Returns the value as a number or truth value if its type is one, else as text.
+nlohmann::json json_value(const Target& target, const Bytes& data) {
+  using Kind = ValueType::Kind;
+  const Shown plain = target.type ? show(*target.type, data) : Shown{{}, "unknown"};
+  const Kind kind = plain.fault.empty() ? target.type->kind : Kind::bytes;
+  const double real = kind == Kind::real ? std::stod(plain.text) : 0;
+  const std::string text = visible_text(data);
+  switch (kind) {
+    case Kind::unsigned_integer: return std::stoull(plain.text);
+    case Kind::integer: return std::stoll(plain.text);
+    case Kind::boolean: return plain.text == "1";
+    case Kind::text: return text.empty() && !data.empty() ? shown(target, data) : text;
+    case Kind::real: return std::isfinite(real) ? nlohmann::json(real) : nlohmann::json(plain.text);
+    default: return shown(target, data);
+  }
+}
+
 void print_json_value(const Target& target, const Bytes& data) {
   std::string hex;
   for (const std::uint8_t byte : data) {
     hex += fmt::format("{:02X}", byte);
   }
-  nlohmann::json json = {{"node", target.node},   {"index", target.object.index}, {"sub", target.object.sub_index},
-                         {"object", target.name}, {"value", shown(target, data)}, {"data", hex}};
+  nlohmann::json json = {{"node", target.node},
+                         {"index", target.object.index},
+                         {"sub", target.object.sub_index},
+                         {"object", target.name},
+                         {"value", json_value(target, data)},
+                         {"text", shown(target, data)},
+                         {"data", hex}};
   if (target.type) {
     json["type"] = type_text(*target.type);
   }
@@ -73,6 +96,11 @@ int run(const Options& options) {
   }
   if (!options.output.empty()) {
     return write_output(options.output, transfer.data);
+  }
+  const std::string fault = target.is_type_given ? show(*target.type, transfer.data).fault : std::string();
+  if (!fault.empty()) {
+    print_message(fmt::format("{}: {}: {}", target.name, fault, guess(transfer.data)));
+    return refused;
   }
   if (options.common.is_json) {
     print_json_value(target, transfer.data);

@@ -38,7 +38,7 @@ std::string profile_text(const Found& found) {
 
 std::string state_text(const std::optional<std::uint8_t>& state) {
   if (!state) {
-    return "no heartbeat";
+    return "not seen";
   }
   switch (*state) {
     case 0x00: return "boot-up";
@@ -56,8 +56,8 @@ std::string number_text(const std::optional<std::uint32_t>& number) {
 void print_table(const Devices& found) {
   print("node  state            profile         vendor:product     serial    name\n");
   for (const Device& device : found.devices) {
-    print(fmt::format("{:>4}  {:<16} {:<15} {}:{}  {:<8}  {}\n", device.found.node, state_text(device.found.state),
-                      profile_text(device.found), number_text(device.vendor), number_text(device.product),
+    print(fmt::format("{:>4}  {:<16} {:<15} {:<17}  {:<8}  {}\n", device.found.node, state_text(device.found.state),
+                      profile_text(device.found), number_text(device.vendor) + ':' + number_text(device.product),
                       number_text(device.serial), device.name));
   }
   for (const LssAddress& address : found.unconfigured) {

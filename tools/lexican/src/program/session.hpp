@@ -81,7 +81,7 @@ struct Target {
 
 /// Returns the name of a type: "u16".
 std::string type_text(const ValueType& type);
-/// Returns the value as text. A value without a type, or of another length than its type, is shown by its bytes.
+/// Returns the value as text; empty if it has another length than --type.
 std::string shown(const Target& target, const Bytes& data);
 /// Returns "606Ch:00 velocity actual value = 1204 (i32)" and a line end.
 std::string line_of(const Target& target, const Bytes& data);
