@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "bus/open.hpp"
+#include "host/bus_host.hpp"
 #include "host/loop.hpp"
-#include "program/bus_host.hpp"
 
 namespace {
 
@@ -139,7 +139,7 @@ int run(const std::string& bus_name, std::uint8_t id, bool is_silent, bool is_sl
     }
   }
   const Interruption interruption;
-  program::BusHost host(*bus, interruption, program::BusHost::Role::device);
+  BusHost host(*bus, interruption, BusHost::Role::master);
   const auto length = static_cast<std::uint16_t>(std::size(objects));
   Node node(
       {id, host.device_can(), host.device_timer(), {objects, length}, [id](bool is_received, const CO_IF_FRM& frame) {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bus/open.hpp"
+#include "host/bus_host.hpp"
 
 namespace {
 
@@ -432,7 +433,7 @@ TEST_CASE("slcan: a write reports that the adapter has gone") {
   CHECK(at.bus->wanted().fd == -1);
 }
 
-TEST_CASE("slcan: the note names a command or a frame that the adapter has refused") {
+TEST_CASE("slcan: the name of a command or a frame that the adapter has refused") {
   const std::pair<const char*, const char*> answers[] = {{"\r\r\r", ""},
                                                          {"\a\r\r", ""},
                                                          {"\r\a\r", "the command S6"},
@@ -442,10 +443,43 @@ TEST_CASE("slcan: the note names a command or a frame that the adapter has refus
                                                          {"\a\r\a\a", "the command L"}};
   for (const auto& [answer, refused] : answers) {
     Connected at({500000, true});
-    CHECK(at.bus->note().empty());
+    CHECK(at.bus->refusal().empty());
     at.receive(answer);
     const std::string begin = *refused == '\0' ? "" : "slcan adapter " + at.adapter.path() + " has refused ";
-    CHECK(at.bus->note() == begin + refused);
+    CHECK(at.bus->refusal() == begin + refused);
+  }
+}
+
+TEST_CASE("slcan: a node of the stack uses a bus: a wait ends with a frame, refusals and the end are faults") {
+  using lexican::BusHost;
+  const lexican::Interruption interruption;
+  for (const BusHost::Role role : {BusHost::Role::master, BusHost::Role::device}) {
+    Connected at;
+    BusHost host(*at.bus, interruption, role);
+    const lexican::Can can = host.master_can();
+    CO_IF_FRM received{};
+    CHECK(can.driver->Read(can.context, &received) == 0);
+    REQUIRE(::write(at.peer, "t0800\r", 6) == 6);
+    while (can.driver->Read(can.context, &received) == 0) {
+      host.wait(lexican::for_ever);
+    }
+    CHECK(to_text(received) == "080#");
+    const CO_IF_FRM boot_up = frame("705#00");
+    CHECK(can.driver->Send(can.context, &boot_up) == sizeof boot_up);
+    CHECK(read_text(at.peer, 8) == "t705100\r");
+    CHECK(host.bus_fault().empty());
+    at.receive("\r\r\a");
+    CHECK(host.bus_fault() ==
+          "slcan adapter " + at.adapter.path() + " has refused a frame; it may need a bit rate: @500k");
+    CHECK_FALSE(host.bus_lost());
+    at.peer.reset();
+    CHECK(can.driver->Read(can.context, &received) == -1);
+    CHECK(can.driver->Send(can.context, &boot_up) == -1);
+    CHECK(host.bus_fault() == "slcan adapter " + at.adapter.path() + gone);
+    CHECK(host.bus_lost());
+    CHECK(host.interrupted() == (role == BusHost::Role::master));
+    host.wait(0);
+    CHECK_FALSE(host.bus_lost());  // opened again
   }
 }
 
@@ -745,7 +779,7 @@ TEST_CASE("slcan-pty: a bus of the kind slcan opens it") {
   CHECK(transfer(*pty.bus, *other) == 2000);
   CHECK(other->lost() == 0);
   CHECK(pty.bus->lost() == 0);
-  CHECK(other->note().empty());
+  CHECK(other->refusal().empty());
 }
 
 TEST_CASE("slcan-pty: a program that asks and does not read the answers") {

@@ -42,6 +42,9 @@ class Bus {
   /// \retval false  the bus has no commands for them
   virtual bool configure(const BusOptions& /*options*/) { return false; }
 
+  /// Restricts receive() to these identifiers (CO_IF_CAN_DRV_EX.Filter) where the kernel can do so.
+  virtual void filter(const std::uint32_t* /*ids*/, std::uint16_t /*number*/) {}
+
   /// Returns why the bus is lost, in words; empty: it is not.
   virtual const std::string& fault() const = 0;
   /// Returns the number of frames since the opening that this participant did not receive, because it read too late.
@@ -53,6 +56,8 @@ class Bus {
   /// Returns the reader of a bus that is a log: its channels and counters.
   /// \retval nullptr  the bus is not a log
   virtual const LogReader* log() const { return nullptr; }
+  /// Returns what an adapter has refused, in words; empty: nothing.
+  virtual std::string refusal() const { return {}; }
   /// Returns a line for the user, such as the path of a pseudo-terminal; empty: there is none.
   virtual std::string note() const { return {}; }
 };

@@ -3,8 +3,6 @@
 //   (1436509052.249713) vcan0 123#DEADBEEF
 //   (1436509052.250000) vcan0 12345678#R4 T
 //   DROPCOUNT: dropped 3 CAN frames on 'vcan0' socket (total drops 7)
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "bus/log_formats.hpp"
@@ -124,14 +122,14 @@ class CandumpWriter : public LogWriter {
     const char* const direction = entry.direction == Direction::unknown ? ""
                                   : entry.direction == Direction::sent  ? " T"
                                                                         : " R";
-    stream_ << fmt::format("({:010}.{:06}) {} {}{}\n", entry.time / 1'000'000, entry.time % 1'000'000, channel_,
-                           to_text(entry.frame), direction);
+    stream_ << '(' << number_text(entry.time / 1'000'000, 10, 10) << '.' << number_text(entry.time % 1'000'000, 6, 10)
+            << ") " << channel_ << ' ' << to_text(entry.frame) << direction << '\n';
   }
 
   void write_lost(Micros /*time*/, std::uint32_t number) override {
     total_ += number;
-    stream_ << fmt::format("{} dropped {} CAN frame{} on '{}' socket (total drops {})\n", drop_count, number,
-                           number == 1 ? "" : "s", channel_, total_);
+    stream_ << drop_count << " dropped " << number << " CAN frame" << (number == 1 ? "" : "s") << " on '" << channel_
+            << "' socket (total drops " << total_ << ")\n";
   }
 
  private:
@@ -145,12 +143,12 @@ class CandumpWriter : public LogWriter {
 std::string to_text(const CO_IF_FRM& frame) {
   const bool is_wide = (frame.Identifier & (CO_IF_FRM_EXT | CO_IF_FRM_ERROR)) != 0;
   const std::uint32_t id = frame.Identifier & (CO_IF_FRM_ID | CO_IF_FRM_ERROR);
-  std::string text = is_wide ? fmt::format("{:08X}#", id) : fmt::format("{:03X}#", id);
+  std::string text = number_text(id, is_wide ? 8 : 3) + '#';
   if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
     return text + 'R' + (frame.DLC == 0 ? "" : std::to_string(std::min<unsigned>(frame.DLC, 8)));
   }
   for (unsigned n = 0; n < std::min<unsigned>(frame.DLC, 8); ++n) {
-    text += fmt::format("{:02X}", frame.Data[n]);
+    text += number_text(frame.Data[n], 2);
   }
   return text;
 }

@@ -2,6 +2,7 @@
 #include "bus/log.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "bus/log_formats.hpp"
 
@@ -101,6 +102,17 @@ bool LogInput::read_line(std::string& line, bool& is_whole) {
     line.pop_back();
   }
   return true;
+}
+
+std::string number_text(std::uint64_t number, std::size_t digits, int base) {
+  std::array<char, 20> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number, base);
+  const auto size = static_cast<std::size_t>(end - text.data());
+  std::string result(digits - std::min(size, digits), '0');
+  result.append(text.data(), size);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](char c) { return c >= 'a' ? char(c - 'a' + 'A') : c; });
+  return result;
 }
 
 bool parse_seconds(std::string_view text, Micros& time) {

@@ -57,6 +57,9 @@ bool parse_number(std::string_view text, T& number, int base = 10) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
+/// Returns a number with at least \a digits digits; upper-case letters where \a base is 16.
+std::string number_text(std::uint64_t number, std::size_t digits, int base = 16);
+
 /// Parses a time in seconds with up to nine decimals.
 /// \retval false  it is not such a number
 bool parse_seconds(std::string_view text, Micros& time);

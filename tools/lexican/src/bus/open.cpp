@@ -25,7 +25,9 @@ class ListeningBus : public Bus {
   std::uint64_t lost() const override { return bus_->lost(); }
   bool is_physical() const override { return bus_->is_physical(); }
   std::uint32_t bit_rate() const override { return bus_->bit_rate(); }
+  void filter(const std::uint32_t* ids, std::uint16_t number) override { bus_->filter(ids, number); }
   const LogReader* log() const override { return bus_->log(); }
+  std::string refusal() const override { return bus_->refusal(); }
   std::string note() const override { return bus_->note(); }
 
  private:

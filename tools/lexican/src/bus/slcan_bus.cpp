@@ -383,7 +383,11 @@ class AdapterBus : public SlcanBus {
     return true;
   }
 
-  std::string note() const override { return refused_.empty() ? "" : title() + " has refused " + refused_; }
+  std::string refusal() const override {
+    return refused_.empty()
+               ? ""
+               : title() + " has refused " + refused_ + (bit_rate_ == 0 ? "; it may need a bit rate: @500k" : "");
+  }
 
  protected:
   /// Opens the connection without waiting.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#ifdef LEXICAN_HAS_LIBSOCKETCAN
 #include <libsocketcan.h>
+#endif
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <linux/ethtool.h>
@@ -28,6 +30,16 @@ bool is_virtual(const std::string& name) {
   close(fd);
   const std::string_view kind = driver.driver;
   return is_answered && (kind == "vcan" || kind == "vxcan");
+}
+
+/// Returns the bit rate of an interface in bit/s; 0: it has none, or the program is built without libsocketcan.
+std::uint32_t bit_rate_of([[maybe_unused]] const std::string& name) {
+#ifdef LEXICAN_HAS_LIBSOCKETCAN
+  can_bittiming timing{};
+  return can_get_bittiming(name.c_str(), &timing) == 0 ? timing.bitrate : 0;
+#else
+  return 0;
+#endif
 }
 
 class SocketCanBus : public Bus {
@@ -72,14 +84,15 @@ class SocketCanBus : public Bus {
       const can_err_mask_t all = CAN_ERR_MASK;
       if (can_.fd() >= 0 && setsockopt(can_.fd(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &all, sizeof all) == 0) {
         is_physical_ = !is_virtual(name_);
-        can_bittiming timing{};
-        bit_rate_ = can_get_bittiming(name_.c_str(), &timing) == 0 ? timing.bitrate : 0;
+        bit_rate_ = bit_rate_of(name_);
       }
       is_refused_ = false;
     }
     fault_ = can_.fd() < 0 ? can_.error() : can_.up() ? "" : name_ + " is down: ip link set " + name_ + " up";
     return fault_.empty();
   }
+
+  void filter(const std::uint32_t* ids, std::uint16_t number) override { can_.filter(ids, number); }
 
   const std::string& fault() const override { return fault_; }
   std::uint64_t lost() const override { return can_.lost(); }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
@@ -100,15 +99,15 @@ constexpr std::array<std::pair<std::string_view, Kind>, 5> plain_words = {{
 }};
 
 std::string identifier_text(std::uint32_t identifier) {
-  return (identifier & CO_IF_FRM_EXT) != 0 ? fmt::format("{:08X}", identifier & CO_IF_FRM_ID)
-                                           : fmt::format("{:03X}", identifier & max_base_id);
+  return (identifier & CO_IF_FRM_EXT) != 0 ? number_text(identifier & CO_IF_FRM_ID, 8)
+                                           : number_text(identifier & max_base_id, 3);
 }
 
 /// Returns the data bytes in hex, each with \a before in front of it.
 std::string data_text(const CO_IF_FRM& frame, const char* before) {
   std::string text;
   for (unsigned n = 0; n < std::min<unsigned>(frame.DLC, 8); ++n) {
-    text += fmt::format("{}{:02X}", before, frame.Data[n]);
+    text += before + number_text(frame.Data[n], 2);
   }
   return text;
 }
@@ -144,13 +143,13 @@ SocketcandMessage parse_socketcand(std::string_view text) {
 }
 
 std::string to_socketcand_frame(const Entry& entry) {
-  return fmt::format(" < frame {} {}.{:06} {} >", identifier_text(entry.frame.Identifier), entry.time / 1'000'000,
-                     entry.time % 1'000'000, data_text(entry.frame, ""));
+  return " < frame " + identifier_text(entry.frame.Identifier) + ' ' + std::to_string(entry.time / 1'000'000) + '.' +
+         number_text(entry.time % 1'000'000, 6, 10) + ' ' + data_text(entry.frame, "") + " >";
 }
 
 std::string to_socketcand_send(const CO_IF_FRM& frame) {
-  return fmt::format("< send {} {}{} >", identifier_text(frame.Identifier), std::min<unsigned>(frame.DLC, 8),
-                     data_text(frame, " "));
+  return "< send " + identifier_text(frame.Identifier) + ' ' + std::to_string(std::min<unsigned>(frame.DLC, 8)) +
+         data_text(frame, " ") + " >";
 }
 
 void prepare_socketcand(int fd) {

@@ -68,7 +68,7 @@ int find_rate(host_bus::Bus& bus, const Common& common, bool listens_only) {
   HeardRate heard = listen(false);
   if (heard.is_refused && !common.is_sure) {
     print_message(
-        bus.note() +
+        bus.refusal() +
         ": it cannot listen only. Give its bit rate by --rate; or try each rate by --yes, which disturbs a bus "
         "with another rate");
     return usage;

@@ -50,7 +50,7 @@ HeardRate listen_for_rate(host_bus::Bus& bus, host_bus::BusOptions options, Micr
       count_frames(bus, stale_time, is_ended);
       const Clock::time_point begin = Clock::now();
       heard.frames = count_frames(bus, time, is_ended);
-      heard.is_refused = !bus.note().empty();
+      heard.is_refused = !bus.refusal().empty();
       if (heard.is_refused || is_ended() || !bus.fault().empty()) {
         return heard;
       }

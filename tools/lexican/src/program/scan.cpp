@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "program/bus_host.hpp"
+#include "host/bus_host.hpp"
 #include "program/search.hpp"
 #include "program/verb.hpp"
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "client/sdo_client.hpp"
-#include "program/bus_host.hpp"
+#include "host/bus_host.hpp"
 #include "program/verb.hpp"
 
 namespace lexican::program {
