@@ -53,7 +53,7 @@ run_alone() {
     -kernel "$2"
 }
 
-# Runs COMMAND --slcan SOCKET with a board: with_board BOARD PROGRAM COMMAND... The board starts when COMMAND has opened
+# Runs COMMAND -i slcan:SOCKET with a board: with_board BOARD PROGRAM COMMAND... The board starts when COMMAND has opened
 # the socket, and is stopped when COMMAND has ended. Prints the board's error messages. The board's clock counts
 # executed instructions, and follows real time only while the CPU sleeps: a node that a busy machine delays does not
 # time out.
@@ -68,7 +68,7 @@ with_board() (
     >"$place/log" 2>&1 &
   emulator=$!
   await_socket "$place/can" "$emulator"
-  "$@" --slcan "$place/can"
+  "$@" -i "slcan:$place/can"
   status=$?
   grep -v 'info: QEMU waiting for connection' "$place/log" >&2
   exit $status

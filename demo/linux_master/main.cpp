@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // lexican-demo-master: reads or writes one object of a CANopen node, sends an NMT command, finds and configures nodes
-// by LSS, or runs the tour of a demo clock. The library lexican_demo_client (demo/client) executes the requests.
+// by LSS, or runs the tour of a demo clock. The library lexican_client (tools/lexican/src/client) executes the
+// requests.
 #include <unistd.h>
 
 #include <cstdlib>
 #include <iostream>
-#include <memory>
-#include <utility>
 
 #include "client/lss.hpp"
 #include "client/nmt.hpp"
 #include "client/request.hpp"
-#include "host/linux_host.hpp"
-#include "host/slcan_host.hpp"
+#include "host/named_bus.hpp"
 #include "linux_master/options.hpp"
 #include "linux_master/tour.hpp"
 
@@ -31,28 +29,6 @@ Progress::Form progress_form(bool asked_for) {
   return asked_for ? Progress::Form::lines : Progress::Form::none;
 }
 
-/// The bus to use; or no host, and the fault.
-struct Bus {
-  std::unique_ptr<Host> host;
-  std::string fault;
-};
-
-template <typename Kind>
-Bus opened(std::unique_ptr<Kind> host, std::string fault) {
-  return {fault.empty() ? std::move(host) : nullptr, std::move(fault)};
-}
-
-Bus open_bus(const CommandLine& line, const Interruption& interruption) {
-  if (line.slcan.empty()) {
-    auto host = std::make_unique<SocketCanHost>(interruption);
-    std::string fault = host->open(line.interface, false, true);
-    return opened(std::move(host), std::move(fault));
-  }
-  auto host = std::make_unique<SlcanHost>(interruption);
-  std::string fault = host->open(line.slcan, line.bit_rate);
-  return opened(std::move(host), std::move(fault));
-}
-
 int run(const CommandLine& line) {
   const Prepared prepared = prepare(line.arguments);
   if (!prepared.fault.empty()) {
@@ -61,9 +37,9 @@ int run(const CommandLine& line) {
   Outcome outcome;
   {
     const Interruption interruption;
-    const Bus bus = open_bus(line, interruption);
+    const NamedBus bus = open_bus(line.bus, Ends::master, interruption);
     if (bus.host == nullptr) {
-      return refuse(bus.fault);
+      return refuse(bus.about);
     }
     outcome = carry_out(prepared.request, *bus.host, progress_form(line.progress), std::cerr);
   }
@@ -76,8 +52,8 @@ int run_nmt(const CommandLine& line) {
     return refuse(prepared.fault);
   }
   const Interruption interruption;
-  const Bus bus = open_bus(line, interruption);
-  return bus.host == nullptr ? refuse(bus.fault) : carry_out(prepared.request, *bus.host, std::cerr);
+  const NamedBus bus = open_bus(line.bus, Ends::master, interruption);
+  return bus.host == nullptr ? refuse(bus.about) : carry_out(prepared.request, *bus.host, std::cerr);
 }
 
 int run_lss(const CommandLine& line) {
@@ -86,8 +62,8 @@ int run_lss(const CommandLine& line) {
     return refuse(prepared.fault);
   }
   const Interruption interruption;
-  const Bus bus = open_bus(line, interruption);
-  return bus.host == nullptr ? refuse(bus.fault) : carry_out(prepared.request, *bus.host, std::cout, std::cerr);
+  const NamedBus bus = open_bus(line.bus, Ends::master, interruption);
+  return bus.host == nullptr ? refuse(bus.about) : carry_out(prepared.request, *bus.host, std::cout, std::cerr);
 }
 
 int run_tour(const CommandLine& line) {
@@ -96,9 +72,9 @@ int run_tour(const CommandLine& line) {
     return refuse(prepared.fault);
   }
   const Interruption interruption;
-  const Bus bus = open_bus(line, interruption);
+  const NamedBus bus = open_bus(line.bus, Ends::master, interruption);
   if (bus.host == nullptr) {
-    return refuse(bus.fault);
+    return refuse(bus.about);
   }
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   const View::Style style = {terminal, terminal && std::getenv("NO_COLOR") == nullptr, line.every_frame, "master"};

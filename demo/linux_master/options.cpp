@@ -6,6 +6,7 @@
 #include <string>
 
 #include "co_ver.h"
+#include "host/named_bus.hpp"
 #include "trace/text.hpp"
 
 namespace lexican::demo {
@@ -16,7 +17,8 @@ constexpr const char* description =
     "Or commands the NMT state of a node or of all nodes.\n"
     "Or finds nodes without node-ID and configures nodes by LSS.\n"
     "Or runs the tour: uses all services of a demo clock on the bus, and prints the frames.\n"
-    "The master boots as a separate node. Only values read and nodes found are printed to standard output.";
+    "The master boots as a separate node. Only values read and nodes found are printed to standard output.\n"
+    "Without --bus: uses vcan0 if there is one, else hub:demo, the bus of the demo node on this machine.";
 
 constexpr const char* footer =
     "Index and sub-index are hexadecimal: 1008 and 0x1008 are the same; 0d4104 is decimal. Other numbers are decimal, "
@@ -31,7 +33,7 @@ constexpr const char* footer =
     "  lexican-demo-master --node 1 --index 1008 read\n"
     "  lexican-demo-master --node 1 --index 2100 --sub 1 --type u8 write 12\n"
     "  lexican-demo-master --node 1 --index 2200 --file picture.rgb read\n"
-    "  lexican-demo-master --slcan /dev/ttyACM0 --bit-rate 500000 --node 1 --index 1000 read\n"
+    "  lexican-demo-master -i slcan:/dev/ttyACM0@500k --node 1 --index 1000 read\n"
     "  lexican-demo-master --node 1 nmt start\n"
     "  lexican-demo-master lss scan\n"
     "  lexican-demo-master lss set-id 5 --store\n"
@@ -43,12 +45,11 @@ constexpr const char* footer =
     "    1  the transfer was aborted or refused, there was no answer, the value read does not fit the type, or a step "
     "of\n"
     "       the tour failed\n"
-    "    2  wrong arguments, or the CAN interface, the adapter or the file cannot be used\n"
+    "    2  wrong arguments, or the bus or the file cannot be used\n"
     "  130  Ctrl-C or SIGTERM has cancelled it";
 
 constexpr const char* lss_footer =
-    "Numbers are decimal, or hexadecimal with 0x. The options --can, --slcan, --own-id and --timeout can be used, "
-    "too.\n"
+    "Numbers are decimal, or hexadecimal with 0x. The options --bus, --own-id and --timeout can be used, too.\n"
     "\n"
     "Examples:\n"
     "  lexican-demo-master lss scan\n"
@@ -57,14 +58,7 @@ constexpr const char* lss_footer =
 
 void add_object_options(CLI::App& app, CommandLine& line) {
   Arguments& arguments = line.arguments;
-  auto* const can = app.add_option("--can", line.interface, "SocketCAN interface to use")->type_name("IF");
-  can->capture_default_str();
-  auto* const slcan = app.add_option("--slcan", line.slcan, "slcan adapter to use instead: a serial device or a socket")
-                          ->type_name("PATH")
-                          ->excludes(can);
-  app.add_option("--bit-rate", line.bit_rate, "Bit rate that the adapter sets, in bit/s [unchanged]")
-      ->type_name("N")
-      ->needs(slcan);
+  app.add_option("-i,--bus", line.bus, bus_help)->type_name("BUS");
   app.add_option("--node", arguments.node, "Node-ID of the remote node, 1...127, or all for nmt [tour: 1]")
       ->type_name("N");
   app.add_option("--own-id", arguments.own_id, "Node-ID of this master, 1...127 [127, or 126 if that is the node]")

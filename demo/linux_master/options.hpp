@@ -18,10 +18,8 @@ struct CommandLine {
   Arguments arguments;
   NmtArguments nmt;
   LssArguments lss;
-  std::string interface = "vcan0";
-  std::string slcan;           // device or socket of an adapter; empty: the interface is used
-  std::uint32_t bit_rate = 0;  // bit/s, 0: that of the adapter
-  bool every_frame = false;    // option of the tour
+  std::string bus;           // empty: vcan0, else hub:demo
+  bool every_frame = false;  // option of the tour
   bool progress = false;
   bool run = false;  // false: end with exit_code (--help, or a fault)
   int exit_code = exit_ok;

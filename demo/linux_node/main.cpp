@@ -7,12 +7,11 @@
 #include <iostream>
 #include <memory>
 #include <random>
-#include <utility>
 
 #include "clock/dictionary.hpp"
 #include "clock/names.hpp"
-#include "host/linux_host.hpp"
-#include "host/slcan_host.hpp"
+#include "host/named_bus.hpp"
+#include "host/virtual_bus_host.hpp"
 #include "linux_node/clock.hpp"
 #include "linux_node/heartbeat_watch.hpp"
 #include "linux_node/options.hpp"
@@ -24,58 +23,26 @@
 namespace lexican::demo {
 namespace {
 
-constexpr const char* default_interface = "vcan0";
 constexpr bool tour_begins_with_lss = USE_LSS != 0 && USE_LSS_MASTER != 0;
 constexpr std::uint32_t ticks_per_millisecond = Node::ticks_per_second / 1000;
 
-/// Bus to use.
-struct Bus {
-  std::unique_ptr<Host> host;       // null: no bus could be opened
-  std::string about;                // name of the bus and reason for its choice; without host: the fault
-  std::string master_options = {};  // options of lexican-demo-master for the same bus
-};
-
-std::string virtual_bus() {
-  return text("built-in virtual bus, %u kbit/s, simulated time", VirtualBusHost::bit_rate / 1000);
-}
-
-Bus open_pseudo_terminal(const std::string& why, const Interruption& interruption) {
-  auto host = std::make_unique<SlcanHost>(interruption);
-  const std::string fault = host->open_pseudo_terminal();
-  if (!fault.empty()) {
-    return {nullptr, fault};
-  }
-  const std::string path = host->path();
-  return {std::move(host), "slcan on the pseudo-terminal " + path + why, " --slcan " + path};
-}
-
-Bus open_interface(const Options& options, const Interruption& interruption) {
-  const bool chosen = !options.interface.empty();
-  const std::string interface = chosen ? options.interface : default_interface;
-  auto host = std::make_unique<SocketCanHost>(interruption);
-  const std::string fault = host->open(interface, true, !options.serve);
-  if (!fault.empty()) {
-    return {nullptr, fault};
-  }
-  return {std::move(host), "SocketCAN interface " + interface + (chosen ? ", selected by --can" : ", which is up"),
-          chosen ? " --can " + interface : ""};
-}
-
-Bus open_bus(const Options& options, const Interruption& interruption) {
+/// Opens the bus of the options. The node without options uses vcan0 if it is up; without it, alone hub:demo, and with
+/// its master the bus inside the program.
+NamedBus choose_bus(const Options& options, const Interruption& interruption) {
+  NamedBus bus;
   if (options.virtual_bus) {
-    return {std::make_unique<VirtualBusHost>(interruption), virtual_bus() + ", selected by --virtual"};
+    bus.about = "selected by --virtual";
+  } else if (options.serve) {
+    return open_bus(options.bus, Ends::device, interruption);
+  } else {
+    bus = open_bus(options.bus.empty() ? default_interface : options.bus, Ends::both, interruption);
   }
-  if (options.pseudo_terminal) {
-    return open_pseudo_terminal(", selected by --pty", interruption);
+  if (bus.host == nullptr && options.bus.empty()) {
+    bus.host = std::make_unique<VirtualBusHost>(interruption);
+    bus.about = text("built-in virtual bus, %u kbit/s, simulated time", VirtualBusHost::bit_rate / 1000) +
+                (options.virtual_bus ? ", " : "; ") + bus.about;
   }
-  Bus bus = open_interface(options, interruption);
-  if (bus.host != nullptr || !options.interface.empty()) {
-    return bus;
-  }
-  if (options.serve) {
-    return open_pseudo_terminal("; " + bus.about, interruption);
-  }
-  return {std::make_unique<VirtualBusHost>(interruption), virtual_bus() + "; " + bus.about};
+  return bus;
 }
 
 View::Style style_for(const Options& options) {
@@ -121,8 +88,8 @@ std::string about_node(Clock& clock, const Options& options, std::uint32_t seria
 }
 
 /// Returns a first command for a master on the same bus.
-std::string about_master(Clock& clock, const Bus& bus, const Options& options) {
-  const std::string master = "Master: demo/run master" + bus.master_options;
+std::string about_master(Clock& clock, const NamedBus& bus, const Options& options) {
+  const std::string master = "Master: demo/run master -i " + bus.name_for_others;
   if (clock.node_id() == no_node_id) {
     return master + " lss set-id 5" + (options.storage.empty() ? "" : " --store");
   }
@@ -191,7 +158,7 @@ int serve(Host& host, Clock& clock, const HeartbeatWatch& heartbeats, View& view
 
 int run(const Options& options) {
   const Interruption interruption;
-  const Bus bus = open_bus(options, interruption);
+  const NamedBus bus = choose_bus(options, interruption);
   if (bus.host == nullptr) {
     std::cerr << bus.about << '\n';
     return exit_usage;

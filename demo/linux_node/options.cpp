@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "co_ver.h"
+#include "host/named_bus.hpp"
 #include "trace/text.hpp"
 
 namespace lexican::demo {
@@ -18,14 +19,14 @@ constexpr const char* description =
     "Without options: uses vcan0 if there is one, else a bus inside the program, with simulated time.\n"
     "With --serve: the node alone, for lexican-demo-master or your own tools, until Ctrl-C. Uses vcan0 if there is "
     "one,\n"
-    "else slcan on a pseudo-terminal, whose name it prints.\n"
+    "else hub:demo, a bus between programs of this machine. lexican-demo-master uses the same one.\n"
     "An unconfigured node starts when an LSS master has set its node-ID, as lexican-demo-master lss set-id does.";
 
 constexpr const char* footer =
     "Exit codes:\n"
     "    0  all steps went as expected; --serve: ended by Ctrl-C or SIGTERM\n"
     "    1  a step failed\n"
-    "    2  wrong arguments, or the CAN interface or the file cannot be used\n"
+    "    2  wrong arguments, or the bus or the file cannot be used\n"
     "  130  ended by Ctrl-C or SIGTERM before the last step";
 
 /// Returns the fault of the text, empty if it is valid.
@@ -43,7 +44,7 @@ CommandLine read_command_line(int argc, char** argv) {
   app.footer(footer);
   app.get_formatter()->column_width(36);
   app.set_version_flag("--version", text("%d.%d.%d", CO_VER_MAJOR, CO_VER_MINOR, CO_VER_BUILD));
-  auto* const can = app.add_option("--can", options.interface, "SocketCAN interface to use")->type_name("IF");
+  auto* const bus = app.add_option("-i,--bus", options.bus, bus_help)->type_name("BUS");
   app.add_option("--node-id", node_id, "Node-ID of the clock until LSS stores another, 1...127, or unconfigured")
       ->type_name("N")
       ->check(CLI::Validator(node_id_fault, ""))
@@ -57,11 +58,8 @@ CommandLine read_command_line(int argc, char** argv) {
       ->check(CLI::Range(std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max()).description(""))
       ->needs(serve);
   app.add_flag("--virtual", options.virtual_bus, "Use the built-in bus, even if there is a vcan0")
-      ->excludes(can)
+      ->excludes(bus)
       ->excludes(serve);
-  app.add_flag("--pty", options.pseudo_terminal, "Use a pseudo-terminal (slcan), even if there is a vcan0")
-      ->excludes(can)
-      ->needs(serve);
   auto* const quiet = app.add_flag("--quiet", options.quiet, "Show no frames");
   app.add_flag("--every-frame", options.every_frame, "Show all frames of long transfers")->excludes(quiet);
   try {

@@ -11,14 +11,13 @@
 namespace lexican::demo {
 
 struct Options {
-  std::string interface;  // SocketCAN; empty: automatic
+  std::string bus;  // empty: automatic
   std::uint8_t node_id = 1;
   bool unconfigured = false;  // the node starts without node-ID
   std::string storage;        // file; empty: none
   std::string serial;         // number as typed; empty: automatic
   bool serve = false;
   bool virtual_bus = false;
-  bool pseudo_terminal = false;
   bool every_frame = false;
   bool quiet = false;
 };

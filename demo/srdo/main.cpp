@@ -8,9 +8,10 @@
 #include <utility>
 
 #include "host/exit.hpp"
-#include "host/linux_host.hpp"
 #include "host/loop.hpp"
+#include "host/named_bus.hpp"
 #include "host/node.hpp"
+#include "host/virtual_bus_host.hpp"
 #include "lexican/dictionary.hpp"
 #include "lexican/srdo.hpp"
 #include "trace/text.hpp"
@@ -27,7 +28,7 @@ constexpr const char* footer =
     "Exit codes:\n"
     "    0  the motor has stopped as expected; --serve: ended by Ctrl-C or SIGTERM\n"
     "    1  the motor has not stopped as expected\n"
-    "    2  wrong arguments, or the CAN interface cannot be used";
+    "    2  wrong arguments, or the bus cannot be used";
 
 constexpr std::uint8_t button_id = 4;
 constexpr std::uint8_t drive_id = 5;
@@ -172,26 +173,26 @@ void COSrdoChange(CO_NODE* node, uint8_t, CO_SRDO_STATE state) {
 }
 
 int main(int argc, char** argv) {
-  std::string interface;
+  std::string name;
   bool serve = false;
   CLI::App app(lexican::demo::description, "lexican-demo-srdo");
   app.footer(lexican::demo::footer);
-  auto* const can = app.add_option("--can", interface, "SocketCAN interface to use, in real time")->type_name("IF");
-  app.add_flag("--serve", serve, "Do not press the button; run until Ctrl-C")->needs(can);
+  auto* const bus = app.add_option("-i,--bus", name, "Bus to use, in real time: can0, hub:NAME")->type_name("BUS");
+  app.add_flag("--serve", serve, "Do not press the button; run until Ctrl-C")->needs(bus);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? lexican::exit_ok : lexican::exit_usage;
   }
   const lexican::Interruption interruption;
-  if (interface.empty()) {
-    lexican::demo::VirtualBusHost bus(interruption);
-    return lexican::demo::run(bus, serve);
+  if (name.empty()) {
+    lexican::demo::VirtualBusHost host(interruption);
+    return lexican::demo::run(host, serve);
   }
-  lexican::demo::SocketCanHost bus(interruption);
-  if (const std::string fault = bus.open(interface, true, true); !fault.empty()) {
-    std::fprintf(stderr, "%s\n", fault.c_str());
+  const lexican::demo::NamedBus named = lexican::demo::open_bus(name, lexican::demo::Ends::both, interruption);
+  if (named.host == nullptr) {
+    std::fprintf(stderr, "%s\n", named.about.c_str());
     return lexican::exit_usage;
   }
-  return lexican::demo::run(bus, serve);
+  return lexican::demo::run(*named.host, serve);
 }

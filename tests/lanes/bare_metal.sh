@@ -25,7 +25,7 @@ lane() {
     count_steps "$board" "$results/bare-metal-$board-tour.log"
     verdict "$board: alarms and clock of its timer" "$results/bare-metal-$board-timer.log"
     verdict "$board: two masters, one after the other, at the node that serves" "$results/bare-metal-$board-serve.log"
-    verdict "$board: its name, read by lexican-demo-master --slcan" "$results/bare-metal-$board-name.log"
+    verdict "$board: its name, read by lexican-demo-master" "$results/bare-metal-$board-name.log"
   done
 }
 
@@ -87,7 +87,7 @@ served() (  # BOARD
   trap 'kill "$emulator"; wait "$emulator"; rm -r "$place"' EXIT
   await_socket "$place/can" "$emulator"
   at_board() {
-    "$demo/linux_master/lexican-demo-master" --slcan "$place/can" --node 1 --timeout 600000 "$@"
+    "$demo/linux_master/lexican-demo-master" -i "slcan:$place/can" --node 1 --timeout 600000 "$@"
   }
   [ "$(at_board --index 1009 read)" = "$1" ] && at_board nmt start && [ "$(at_board --index 1008 read)" = "Lexican demo clock" ]
 )

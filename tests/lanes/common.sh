@@ -110,13 +110,17 @@ host_codict() {
   fi
 }
 
-# Builds the demo as its users do, once for all lanes, and sets $demo to the directory of its programs. In a fresh
-# clone a warning is a failure.
+# Builds node, master and SRDO demo as their users do, once for all lanes, and sets $demo to the directory of the
+# programs. In a fresh clone a warning is a failure.
 host_demo() {
   local log=$results/$lane_name-demo.log
   demo=$build/demo/demo
   now "building the demo"
-  CFLAGS=-Werror CXXFLAGS=-Werror "$root/demo/run" --virtual >"$log" 2>&1 || { fail "demo/run --virtual" "$log"; return 1; }
+  local arguments
+  for arguments in --virtual "master --version" srdo; do
+    # shellcheck disable=SC2086
+    CFLAGS=-Werror CXXFLAGS=-Werror "$root/demo/run" $arguments >"$log" 2>&1 || { fail "demo/run $arguments" "$log"; return 1; }
+  done
 }
 
 # Runs a doctest program and counts its cases: run_doctest WHAT COMMAND... Two processes run at the same time, one with

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="demo/run: builds the demo, shows it and serves it on a pseudo-terminal; the commands of docs/demo.md"
+about="demo/run: builds the demo, shows it and serves it on a hub; the commands of docs/demo.md"
 minutes=2
 packages=(g++ cmake ninja-build=ninja libcli11-dev=/usr/include/CLI/CLI.hpp python3 chromium)
 
@@ -40,18 +40,18 @@ await() {
   grep -qE "$1" "$log"
 }
 
-# Runs COMMAND with the name of the node's pseudo-terminal while the node serves: with_node COMMAND NODE-ARGUMENT...
+# Runs COMMAND while the node serves: with_node COMMAND NODE-ARGUMENT...
 with_node() (
   log=$results/demo-serve.log
   : >"$log"  # await must not see the lines of the previous node
-  "$root/demo/run" --serve --pty "${@:2}" >"$log" 2>&1 &
+  "$root/demo/run" --serve -i hub:lane-demo "${@:2}" >"$log" 2>&1 &
   node=$!
   trap 'kill "$node"; wait "$node"; cat "$log"' EXIT
-  await '^ *time/s' && "$1" "$(grep -oE '/dev/pts/[0-9]+' "$log" | head -n 1)"
+  await '^ *time/s' && "$1"
 )
 
-read_and_command() {  # PSEUDO-TERMINAL
-  local master=(demo master --slcan "$1" --timeout 600000)
+read_and_command() {
+  local master=(demo master -i hub:lane-demo --timeout 600000)
   [ "$("${master[@]}" --node 5 --index 1008 read)" = "Lexican demo clock" ] &&
     "${master[@]}" --node 5 --index 2100 --sub 1 --type u8 write 12 &&
     [ "$("${master[@]}" --node 5 --index 2100 --sub 1 read)" = 0x0C ] &&
@@ -61,8 +61,8 @@ read_and_command() {  # PSEUDO-TERMINAL
 served() { with_node read_and_command --node-id 5; }
 
 # Selects the node by its address, for the reason given in tests/programs/demo/serve.sh.
-give_node_id() {  # PSEUDO-TERMINAL
-  local master=(demo master --slcan "$1" --timeout 600000)
+give_node_id() {
+  local master=(demo master -i hub:lane-demo --timeout 600000)
   "${master[@]}" lss --address 0 0xC10C 1 7 set-id 5 --store && await '705 +00 .*boot-up' &&
     [ "$("${master[@]}" --node 5 --index 1008 read)" = "Lexican demo clock" ]
 }

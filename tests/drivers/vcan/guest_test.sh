@@ -89,7 +89,7 @@ period() {  # NAME MINIMUM MAXIMUM (ms), of the heartbeat
 says() {  # NAME OUTPUT ARGUMENT...
   name=$1 expected=$2
   shift 2
-  got=$($master --can $can --node $node_id "$@" 2>/tmp/said)
+  got=$($master -i $can --node $node_id "$@" 2>/tmp/said)
   status=$?
   [ $status -eq 0 ] && [ "$got" = "$expected" ]
   verdict $? "$name" "expected '$expected', got '$got', status $status $(cat /tmp/said)"
@@ -129,7 +129,7 @@ cansend vcan0 123#DEADBEEF
 expect "vcan0 carries a frame" 123#DEADBEEF
 
 listen $heartbeat 2
-$node --can vcan0 --node-id 5 --serve --serial 1 >/tmp/trace 2>&1 &
+$node -i vcan0 --node-id 5 --serve --serial 1 >/tmp/trace 2>&1 &
 server=$!
 expect "boot-up, then heartbeats: pre-operational" "$heartbeat#00 $heartbeat#7F"
 period "a heartbeat each second" 800 1200
@@ -309,7 +309,7 @@ refuses "master: no such node" 1 "node 9, 1000h:00: no answer; is node 9 on this
 expect "master: the time-out is sent as an abort" "609#4000100000000000 609#8000100000000405"
 refuses "master: a missing interface" 2 \
   "CAN interface 'vcan9': no such interface (a virtual one: ip link add dev NAME type vcan)" \
-  --can vcan9 --node 5 --index 0x1000 read
+  -i vcan9 --node 5 --index 0x1000 read
 
 says "master: the initial picture" "" --index 0x2200 --file /tmp/picture_before read
 dd if=/dev/urandom of=/tmp/picture bs="$(wc -c </tmp/picture_before)" count=1 2>/dev/null
@@ -345,7 +345,7 @@ flood() {  # ARGUMENT... of cangen
 }
 
 listen $heartbeat 1
-$node --can vcan0 --node-id 5 --serve --quiet >/tmp/end 2>&1 &
+$node -i vcan0 --node-id 5 --serve --quiet >/tmp/end 2>&1 &
 server=$!
 expect "another node boots" "$heartbeat#00"
 nmt "NMT start before the flood" 0105 05
@@ -374,7 +374,7 @@ cat /tmp/end
 address="vendor-ID, product code, revision, serial number: 0x00000000 0x0000C10C 0x???????? 0x00000001"
 
 serve() {  # ARGUMENT... of the node
-  $node --can vcan0 --serve --serial 1 "$@" >/tmp/trace 2>&1 &
+  $node -i vcan0 --serve --serial 1 "$@" >/tmp/trace 2>&1 &
   server=$!
 }
 
@@ -438,21 +438,21 @@ kill -TERM $server
 wait $server
 
 for id in 0 128 none; do
-  $node --can vcan0 --node-id $id --serve >/tmp/tour 2>&1
+  $node -i vcan0 --node-id $id --serve >/tmp/tour 2>&1
   [ $? -eq 2 ] && grep -q -e --node-id /tmp/tour
   verdict $? "node-ID $id is refused, status 2" "$(cat /tmp/tour)"
 done
-$node --can vcan0 --node-id 5 --serve --storage /tmp/missing/file >/tmp/tour 2>&1
+$node -i vcan0 --node-id 5 --serve --storage /tmp/missing/file >/tmp/tour 2>&1
 [ $? -eq 2 ] && grep -q /tmp/missing/file /tmp/tour
 verdict $? "a file that cannot be created: named, status 2" "$(cat /tmp/tour)"
 
 # Without arguments the demo uses vcan0.
 $node >/tmp/tour 2>&1 && grep -q "steps in .* all as expected" /tmp/tour && head -n 1 /tmp/tour | grep -q vcan0
 verdict $? "the tour uses vcan0 without options" "$(tail -n 1 /tmp/tour)"
-$node --can vcan9 >/tmp/tour 2>&1
+$node -i vcan9 >/tmp/tour 2>&1
 [ $? -eq 2 ] && grep -q vcan9 /tmp/tour
 verdict $? "a missing interface: named, status 2" "$(tail -n 1 /tmp/tour)"
-$node --can lo >/tmp/tour 2>&1
+$node -i lo >/tmp/tour 2>&1
 [ $? -eq 2 ] && grep -q lo /tmp/tour
 verdict $? "an interface that is not CAN: named, status 2" "$(tail -n 1 /tmp/tour)"
 
@@ -486,7 +486,7 @@ restarted() {  # NAME: errors end when the nodes leave Operational
 
 : >/tmp/trace
 listen "107 108" 4
-lexican-demo-srdo --can vcan0 --serve >>/tmp/trace 2>&1 &
+lexican-demo-srdo -i vcan0 --serve >>/tmp/trace 2>&1 &
 server=$!
 expect "SRDO: pairs of frames, inverse to each other" "107#00 108#FF 107#00 108#FF"
 shown "SRDO: the consumer is established" "drive:  established"
@@ -507,7 +507,7 @@ shown "SRDO: the motor is off" "motor off"
 kill -TERM $server
 wait $server
 verdict $? "SRDO: SIGTERM ends the nodes with status 0" "status $?"
-lexican-demo-srdo --can vcan0 >/tmp/trace 2>&1
+lexican-demo-srdo -i vcan0 >/tmp/trace 2>&1
 verdict $? "SRDO: the motor stops when the button is pressed and when its contact fails" "$(cat /tmp/trace)"
 
 # --- The driver of SJA1000 on a PCI card of QEMU; the other end is the kernel's driver on a second card.
@@ -545,11 +545,11 @@ says "SJA1000: 200 bytes read" "" --index 0x2000 --file /tmp/text_back read
 expect "SJA1000: by block upload" "$response#C6002000*"
 cmp /tmp/text /tmp/text_back
 verdict $? "SJA1000: every byte is read back" "$(ls -l /tmp/text /tmp/text_back)"
-overflows=$($master --can $can --node $node_id --index 0x2001 --type u32 read 2>&1)
+overflows=$($master -i $can --node $node_id --index 0x2001 --type u32 read 2>&1)
 [ "$overflows" -gt 0 ]
 verdict $? "SJA1000: overflows of the FIFO in the block download were counted" "got '$overflows'"
 cangen $can -g 0 -p 10 -n 2000 -I 70B -L 8
-got=$($master --can $can --node $node_id --index 0x2001 --type u32 read 2>&1)
+got=$($master -i $can --node $node_id --index 0x2001 --type u32 read 2>&1)
 [ "$got" -gt "$overflows" ]
 verdict $? "SJA1000: and in a flood of 2000 frames, after which the node answers" "got '$got' after '$overflows'"
 kill $server
@@ -560,7 +560,7 @@ echo "$summary" | grep -Eq "test cases: +10 +\| +10 passed"
 verdict $? "the SocketCAN driver on real interfaces: 10 cases" "$summary; $(grep -A3 "ERROR" /tmp/socketcan | tr '\n' ' ')"
 
 # The pages show /dev/pts/0 as an example of the name that the node prints.
-$node --serve --pty --node-id 5 >/tmp/trace 2>&1 &
+$node --serve -i slcan-pty --node-id 5 >/tmp/trace 2>&1 &
 sh /commands.sh /vcan.commands /lexican >/tmp/pages
 grep -v '^1\.\.' /tmp/pages
 cases=$((cases + $(grep -cE '^(not )?ok ' /tmp/pages)))

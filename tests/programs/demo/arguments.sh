@@ -29,7 +29,7 @@ answers "help of the master" 0 "*--index HEX*nmt *" master --help
 answers "help of lss" 0 "*--address V P R S*set-bitrate*" master lss --help
 answers "help of the thermometer" 0 "*Usage: demo/run thermometer*" thermometer --help
 answers "help of the recorder" 0 "*Usage: demo/run recorder*--output FILE*" recorder --help
-answers "help of the SRDO demo" 0 "*Usage: demo/run srdo*--can IF*" srdo --help
+answers "help of the SRDO demo" 0 "*Usage: demo/run srdo*--bus BUS*" srdo --help
 answers "help of the boards" 0 "*mps2-an385*--serve*" --bare-metal --help
 
 answers "unknown option" 2 "demo/run: unknown option '--frames' of the node*--every-frame*" --frames

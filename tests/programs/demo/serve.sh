@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # serve.sh NODE MASTER
 #
-# Tests the demo node on a pseudo-terminal, with the master at its other end: a bus without CAN support of the kernel.
-# Both run in real time, so each case waits for an event, for minutes. LSS selects the node by its address, because a
+# Tests the demo node and its master on a hub and on a pseudo-terminal: buses without CAN support of the kernel. Both run
+# in real time, so each case waits for an event, for minutes. LSS selects the node by its address, because a
 # fastscan treats a late answer as a missing one; demo_lss_test.cpp and the lane vcan test the fastscan in simulated time.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -13,14 +13,15 @@ if ! (exec 3<>/dev/ptmx) 2>/dev/null; then
   exit 77
 fi
 server=
+hub=hub:serve-$$
 trap 'kill $server 2>/dev/null; rm -r "$work"' EXIT
 
-serve() {  # ARGUMENT... of the node
+serve() {  # BUS ARGUMENT... of the node; sets bus to the name by which a master opens it
   : >"$work/trace"  # await must not see the lines of the previous node
-  "$node" --serve --pty "$@" >"$work/trace" 2>&1 &
+  "$node" --serve -i "$@" >"$work/trace" 2>&1 &
   server=$!
   await "$work/trace" '^ *time/s'
-  pty=$(grep -oE '/dev/pts/[0-9]+' "$work/trace" | head -n 1)
+  bus=$(sed -nE 's/^Master: .* -i ([^ ]+).*/\1/p' "$work/trace")
 }
 
 stop() {  # CASE
@@ -30,12 +31,12 @@ stop() {  # CASE
   verdict $status "$1" "status $status"
 }
 
-at_node() { "$master" --slcan "$pty" --timeout 600000 "$@"; }
+at_node() { "$master" -i "$bus" --timeout 600000 "$@"; }
 lss() { at_node lss --address 0 0xC10C 1 7 "$@"; }  # the node with --serial 7
 has_booted() { await "$work/trace" '705 +00 .*boot-up'; }
 
-serve --node-id 5
-grep -qx "Master: demo/run master --slcan $pty --node 5 --index 1008 read" "$work/trace"
+serve "$hub" --node-id 5
+grep -qx "Master: demo/run master -i $hub --node 5 --index 1008 read" "$work/trace"
 verdict $? "the output names the master's command" "$(cat "$work/trace")"
 ends "a name is text" 0 "Lexican demo clock" at_node --node 5 --index 1008 read
 ends "an index with 0x" 0 "Lexican demo clock" at_node --node 5 --index 0x1008 read
@@ -59,14 +60,14 @@ await "$work/trace" '000 +82 00' && has_booted
 verdict $? "the node has booted" "$(tail "$work/trace")"
 stop "the node ends with status 0"
 
-serve --node-id unconfigured --serial 7
-grep -qx "Master: demo/run master --slcan $pty lss set-id 5" "$work/trace"
+serve "$hub" --node-id unconfigured --serial 7
+grep -qx "Master: demo/run master -i $hub lss set-id 5" "$work/trace"
 verdict $? "without a file the node cannot store" "$(cat "$work/trace")"
 ends "LSS gives a node-ID that is not stored" 0 "" lss set-id 5
 stop "the node that does not store ends with status 0"
 
-serve --node-id unconfigured --serial 7 --storage "$work/clock.nvm"
-grep -qx "Master: demo/run master --slcan $pty lss set-id 5 --store" "$work/trace"
+serve "$hub" --node-id unconfigured --serial 7 --storage "$work/clock.nvm"
+grep -qx "Master: demo/run master -i $hub lss set-id 5 --store" "$work/trace"
 verdict $? "without node-ID, the output names the LSS command" "$(cat "$work/trace")"
 ends "LSS gives the node-ID" 0 "" lss set-id 5 --store
 has_booted
@@ -75,8 +76,8 @@ ends "the node answers with it" 0 "Lexican demo clock" at_node --node 5 --index 
 stop "the node without node-ID ends with status 0"
 
 # Kills a master in a transfer: the next master must not receive the remaining frames.
-serve --node-id 5
-"$master" --slcan "$pty" --node 5 --index 2200 --file "$work/half" read &
+serve slcan-pty --node-id 5
+"$master" -i "$bus" --node 5 --index 2200 --file "$work/half" read &
 client=$!
 await "$work/trace" '2200h'
 kill -KILL $client
