@@ -84,7 +84,7 @@ class SocketCanBus : public Bus {
       const can_err_mask_t all = CAN_ERR_MASK;
       if (can_.fd() >= 0 && setsockopt(can_.fd(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &all, sizeof all) == 0) {
         is_physical_ = !is_virtual(name_);
-        bit_rate_ = bit_rate_of(name_);
+        bit_rate_ = is_physical_ ? bit_rate_of(name_) : 0;  // libsocketcan prints a message for a virtual interface
       }
       is_refused_ = false;
     }
