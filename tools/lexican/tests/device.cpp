@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Device for the tests of lexican, described by fixtures/device.eds:
-//   lexican_test_device BUS NODE-ID [silent] [slow]
+//   lexican_test_device BUS NODE-ID [silent] [slow] [eds=FILE]
 // NODE-ID 255: it has none, and is an LSS slave; silent: has a heartbeat and no SDO server; slow: processes frames
-// every 50 ms. Prints "ready" after its boot-up, then "request" for the first SDO request, and "abort CODE" for each
-// abort of the client. Runs until SIGTERM.
+// every 50 ms; eds=FILE: stores this file in 1021h. Prints "ready" after its boot-up, then "request" for the first SDO
+// request, and "abort CODE" for each abort of the client. Runs until SIGTERM.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <iterator>
 #include <string>
 #include <thread>
@@ -37,6 +38,9 @@ const std::uint32_t limit = 5;
 CO_OBJ_STR name = {0, reinterpret_cast<const std::uint8_t*>("SD-400")};
 CO_OBJ_STR version = {0, reinterpret_cast<const std::uint8_t*>("V1")};
 std::vector<std::uint8_t> program(100'000);
+std::vector<std::uint8_t> eds;
+CO_OBJ_DOM stored_eds = {0, 0, nullptr};
+std::uint8_t storage_format = 1;  // compressed, unless there is an EDS
 CO_OBJ_DOM program_memory = {0, 100'000, program.data()};
 
 /// An object whose value cannot be transferred in this state of the device.
@@ -71,6 +75,8 @@ CO_OBJ objects[] = {
     {CO_KEY(0x1018, 2, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x402},
     {CO_KEY(0x1018, 3, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x10000},
     {CO_KEY(0x1018, 4, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x1A2},
+    {CO_KEY(0x1021, 0, CO_OBJ_____R_), CO_TDOMAIN, (CO_DATA)(&stored_eds)},
+    {CO_KEY(0x1022, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&storage_format)},
     {CO_KEY(0x1200, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)2},
     {CO_KEY(0x1200, 1, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)0x600},
     {CO_KEY(0x1200, 2, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)0x580},
@@ -170,5 +176,13 @@ int run(const std::string& bus_name, std::uint8_t id, bool is_silent, bool is_sl
 int main(int number, char** arguments) {
   const std::vector<std::string> words(arguments, arguments + number);
   const auto has = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  for (const std::string& word : words) {
+    if (word.compare(0, 4, "eds=") == 0) {
+      std::ifstream file(word.substr(4), std::ios::binary);
+      eds.assign(std::istreambuf_iterator<char>(file), {});
+      stored_eds = {0, static_cast<std::uint32_t>(eds.size()), eds.data()};
+      storage_format = 0;
+    }
+  }
   return number < 3 ? 2 : run(words[1], static_cast<std::uint8_t>(std::atoi(arguments[2])), has("silent"), has("slow"));
 }

@@ -84,7 +84,10 @@ const std::string heartbeat = "1017h:00 producer heartbeat time = 50 (u16)\n";
 class Bench {
  public:
   Bench() : hub_("hub:test-" + std::to_string(getpid())) {
-    environment_ = {{"XDG_RUNTIME_DIR", directory.path()}, {"LEXICAN_BUS", hub_}, {"NO_COLOR", "1"}};
+    environment_ = {{"XDG_RUNTIME_DIR", directory.path()},
+                    {"XDG_CONFIG_HOME", directory.path()},
+                    {"LEXICAN_BUS", hub_},
+                    {"NO_COLOR", "1"}};
   }
   /// A bench with devices of some node-IDs.
   explicit Bench(std::initializer_list<unsigned> nodes) : Bench() {
@@ -331,6 +334,75 @@ TEST_CASE("lexican: a description that cannot be read is wrong use") {
   CHECK(has(ran.err, "none.eds"));
   CHECK(bench.run("read", {"5", "1000", "--eds", "200=" + eds}).status == 2);
   CHECK(bench.run("read", {"5", "1000", "--eds", bench.directory.path()}).status == 2);
+}
+
+/// Returns the description with another text of a key.
+std::string with_key(const std::string& key, const std::string& value) {
+  return std::regex_replace(bytes_of(eds), std::regex(key + "=[^\n]*"), value);
+}
+
+TEST_CASE("lexican: a description of the user's directory is found by the identity of the device") {
+  const Bench bench{5};
+  const std::string library = bench.directory / "lexican/eds";
+  std::filesystem::create_directories(library);
+  write_bytes(library + "/1.eds", with_key("ProductNumber", "ProductNumber=0x403"));
+  write_bytes(library + "/2.eds", "no description");
+  write_bytes(library + "/3.eds", with_key("ProductNumber", ""));
+  const std::string unknown =
+      "lexican: no object is called 'position'; names need a description: --eds FILE. An index is hexadecimal: 6081, "
+      "1018:4\n";
+  check(bench.run("read", {"5", "2002"}), 0, "2002h:00 = 000003E8h\n", "");
+  check(bench.run("read", {"5", "position"}), 2, "", unknown);
+  write_bytes(library + "/4.eds", bytes_of(eds));
+  check(bench.run("read", {"5", "position"}), 0, "2002h Position = 1000 (u32)\n", "");
+  check(bench.run("write", {"5", "2001", "300"}), 2, "",
+        "lexican: 2001h Temperature: 300 is beyond the limits of the description, -40 to 125; --force writes it\n");
+  CHECK(bench.run("write", {"5", "2001", "100"}).status == 0);
+  const std::string renamed =
+      std::regex_replace(with_key("RevisionNumber", "RevisionNumber=9"), std::regex("=Position"), "=Place");
+  write_bytes(library + "/0.eds", renamed);
+  check(bench.run("read", {"5", "2002"}), 0, "2002h Position = 1000 (u32)\n", "");  // the revision decides
+  const Ran scan = bench.run("scan", {});
+  CHECK(has(scan.out, "name    description\n"));
+  CHECK(has(scan.out, "SD-400  " + library + "/4.eds\n"));
+  const Ran json = bench.run("scan", {"--json"});
+  CHECK(fault_of(json.out, "scan") == "");
+  CHECK(Json::parse(lines_of(json.out)[0])["description"] == library + "/4.eds");
+  std::filesystem::remove(library + "/4.eds");
+  check(bench.run("read", {"5", "2002"}), 0, "2002h Place = 1000 (u32)\n", "");
+  check(bench.run("read", {"7", "place", "--timeout", "50"}), 3, "",
+        "lexican: node 7 does not answer; is it on this bus, with power, and at this bit rate? lexican scan shows who "
+        "answers\n");
+}
+
+TEST_CASE("lexican: the description that a device stores is uploaded with --yes") {
+  Bench bench{6};
+  bench.add(5, "eds=" + eds);
+  const std::string file = bench.directory / "lexican/eds/00000100-00000402-00010000.eds";
+  CHECK(bench.run("read", {"5", "position"}).status == 2);
+  CHECK(bench.run("read", {"6", "position", "--yes"}).status == 2);
+  CHECK(!std::filesystem::exists(file));
+  check(bench.run("read", {"5", "position", "--yes"}), 0, "2002h Position = 1000 (u32)\n", "");
+  CHECK(bytes_of(file) == bytes_of(eds));
+  check(bench.run("read", {"6", "position"}), 0, "2002h Position = 1000 (u32)\n", "");  // the same product
+  std::filesystem::remove(file);
+  const Ran scan = bench.run("scan", {"--yes"});
+  CHECK(has(scan.out, "SD-400  " + file + " (uploaded from 1021h)\n"));
+  CHECK(has(scan.out, "SD-400  " + file + "\n"));
+  CHECK(scan.err == "");
+}
+
+TEST_CASE("lexican: a stored description of another device is not used") {
+  Bench bench;
+  const std::string other = bench.directory / "other.eds";
+  write_bytes(other, with_key("ProductNumber", "ProductNumber=1"));
+  bench.add(5, "eds=" + other);
+  const Ran ran = bench.run("read", {"5", "position", "--yes"});
+  CHECK(has(ran.err,
+            "lexican: the description of node 5 (1021h) is not used: it has another vendor-ID or product code "
+            "than the device\n"));
+  CHECK(ran.status == 2);
+  CHECK(!std::filesystem::exists(bench.directory / "lexican/eds"));
 }
 
 TEST_CASE("lexican write: values of each type, and what reads back") {
@@ -592,11 +664,11 @@ TEST_CASE("lexican scan: devices with state, profile, identity and name") {
   CHECK(ran.status == 0);
   const Ran json = bench.run("scan", {"--json", "--timeout", "200"});
   check(json, 0,
-        R"({"device_type":131474,"name":"SD-400","node":5,"product":1026,"serial":418,"vendor":256})"
+        R"({"device_type":131474,"name":"SD-400","node":5,"product":1026,"revision":65536,"serial":418,"vendor":256})"
         "\n"
         R"({"node":12,"state":"pre-operational"})"
         "\n"
-        R"({"device_type":131474,"name":"SD-400","node":127,"product":1026,"serial":418,"vendor":256})"
+        R"({"device_type":131474,"name":"SD-400","node":127,"product":1026,"revision":65536,"serial":418,"vendor":256})"
         "\n",
         "");
   CHECK(fault_of(json.out, "scan") == "");

@@ -79,4 +79,30 @@ class SdoClient {
   std::uint32_t code_ = 0;  // result of the last transfer
 };
 
+/// A node of the stack as the SDO client of one device.
+class DeviceClient {
+ public:
+  /// \a host must outlive it. \a server: node-ID of the device. \a observer: see Node::Setup; called for all frames.
+  DeviceClient(Host& host, std::uint8_t server, Node::Observer observer = {})
+      : dictionary_(server),
+        node_({server == 127 ? std::uint8_t{126} : std::uint8_t{127}, host.master_can(), host.master_timer(),
+               dictionary_.table(), std::move(observer), true}),
+        loop_(host, {&node_}),
+        sdo_(node_, loop_) {
+    CONodeStart(&node_.stack());
+  }
+  /// Sends what is queued, such as an abort, for at most 100 ms.
+  ~DeviceClient() { loop_.flush(100 * millisecond); }
+  DeviceClient(const DeviceClient&) = delete;
+  DeviceClient& operator=(const DeviceClient&) = delete;
+
+  SdoClient& sdo() { return sdo_; }
+
+ private:
+  ClientDictionary dictionary_;
+  Node node_;
+  Loop loop_;
+  SdoClient sdo_;
+};
+
 }  // namespace lexican

@@ -31,14 +31,6 @@ Bytes little_endian(std::uint64_t number, unsigned size) {
   return bytes;
 }
 
-std::uint64_t number_of(const Bytes& bytes) {
-  std::uint64_t number = 0;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    number |= static_cast<std::uint64_t>(bytes[i]) << (byte_bits * i);
-  }
-  return number;
-}
-
 // --- Integers. They are converted as magnitude and sign, because no integer type has the range of both i64 and u64.
 
 /// Returns the highest number of an integer type.
@@ -220,6 +212,14 @@ std::string guess(const Bytes& bytes) {
     lines += (first == 0 ? "" : "\n") + dump_line(bytes, first);
   }
   return lines;
+}
+
+std::uint64_t number_of(const Bytes& bytes) {
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    number |= static_cast<std::uint64_t>(bytes[i]) << (byte_bits * i);
+  }
+  return number;
 }
 
 }  // namespace lexican

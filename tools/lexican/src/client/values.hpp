@@ -54,4 +54,7 @@ std::string visible_text(const Bytes& bytes);
 /// printable characters.
 std::string guess(const Bytes& bytes);
 
+/// Returns an unsigned integer in little-endian order. \a bytes: at most 8.
+std::uint64_t number_of(const Bytes& bytes);
+
 }  // namespace lexican

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "describe/library.hpp"
 #include "json/input.hpp"
 #include "text/file.hpp"
 #include "text/number.hpp"
@@ -318,29 +319,20 @@ bool Network::add_file(std::uint8_t node, const std::string& path, std::string& 
 }
 
 bool Network::add_directory(const std::string& path, std::string& why) {
-  std::vector<std::filesystem::path> files;
   std::error_code error;
-  std::filesystem::directory_iterator end;
-  for (std::filesystem::directory_iterator at(path, error); !error && at != end; at.increment(error)) {
-    const auto& entry = *at;
-    std::string extension = entry.path().extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return static_cast<char>(c | 0x20); });
-    if (extension == ".eds" || extension == ".dcf" || extension == ".xdd" || extension == ".xdc") {
-      files.push_back(entry.path());
-    }
-  }
+  const std::vector<std::string> files = description_files(path, error);
   if (error) {
     why = path + ": " + error.message();
     return false;
   }
-  std::sort(files.begin(), files.end());
   if (files.empty()) {
     why = path + " has no EDS, DCF, XDD or XDC file";
     return false;
   }
-  return std::all_of(files.begin(), files.end(), [&](const auto& file) { return add_file(0, file.string(), why); });
+  return std::all_of(files.begin(), files.end(), [&](const std::string& file) { return add_file(0, file, why); });
 }
+
+void Network::describe(std::uint8_t node, Description description) { nodes_[node] = std::move(description); }
 
 const Description& Network::of(std::uint8_t node) const {
   static const Description unknown;

@@ -60,6 +60,8 @@ class Network {
   /// that its commissioning names, else every node that no other file describes; there can be one such file.
   /// \retval false  \a why says why
   bool add(const std::string& argument, std::string& why);
+  /// Sets the description of a node.
+  void describe(std::uint8_t node, Description description);
   /// Returns the description of a node; without a file that of CiA 301.
   const Description& of(std::uint8_t node) const;
 

@@ -161,6 +161,12 @@ std::uint8_t node_of(std::string_view text) {
   return error == std::errc() && next == end && node <= 127 ? node : std::uint8_t{0};
 }
 
+bool is_confirmed(const std::string& question) {
+  fmt::print(stderr, "{} [y/N] ", question);
+  char answer[16] = "";
+  return std::fgets(answer, sizeof answer, stdin) != nullptr && (answer[0] == 'y' || answer[0] == 'Y');
+}
+
 void print_message(std::string_view text) { fmt::print(stderr, "lexican: {}\n", printable(text)); }
 
 void print(std::string_view text) {

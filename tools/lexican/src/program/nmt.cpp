@@ -29,14 +29,6 @@ struct Options {
   std::string node;
 };
 
-/// Asks on the terminal.
-/// \retval true  the answer is yes
-bool is_confirmed(const std::string& question) {
-  fmt::print(stderr, "{} [y/N] ", question);
-  char answer[16] = "";
-  return std::fgets(answer, sizeof answer, stdin) != nullptr && (answer[0] == 'y' || answer[0] == 'Y');
-}
-
 std::string state_text(std::uint8_t state) {
   switch (state) {
     case 0x00: return "boot-up";
@@ -99,9 +91,8 @@ struct HeartbeatTime {
 HeartbeatTime read_heartbeat_time(Session& session, std::uint32_t timeout) {
   const Transfer transfer = session.sdo().upload(0x1017, 0, {SdoClient::small, timeout, {}});
   const bool is_number = transfer.done() && transfer.data.size() == 2;
-  return {
-      transfer.code != CO_SDO_ERR_TIMEOUT,
-      is_number ? std::optional(transfer.data[0] | static_cast<std::uint32_t>(transfer.data[1]) << 8) : std::nullopt};
+  return {transfer.code != CO_SDO_ERR_TIMEOUT,
+          is_number ? std::optional(static_cast<std::uint32_t>(number_of(transfer.data))) : std::nullopt};
 }
 
 /// Prints why the state of a device is unknown.

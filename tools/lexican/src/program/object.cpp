@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "program/identity.hpp"
 #include "program/session.hpp"
 #include "text/similar.hpp"
 #include "trace/decode.hpp"
@@ -176,6 +177,26 @@ std::string line_of(const Target& target, const Bytes& data) {
   return target.name + " = " + shown(target, data) + (target.type ? " (" + type_text(*target.type) + ")" : "") + '\n';
 }
 
+namespace {
+
+/// Looks the object up in the description of the node. Prints the reason if it is not found.
+bool find(const TransferOptions& options, Target& target) {
+  const describe::Description& description = target.network.of(target.node);
+  std::string why;
+  if (!find_object(options.object, description, target.object, why)) {
+    print_message(why);
+    return false;
+  }
+  target.name = description.object(target.object.index, target.object.sub_index);
+  if (!target.is_type_given) {
+    target.type = description.type_of(target.object.index, target.object.sub_index);
+  }
+  target.is_found = true;
+  return true;
+}
+
+}  // namespace
+
 bool prepare(const TransferOptions& options, Target& target) {
   target.node = node_of(options.node);
   if (target.node == 0) {
@@ -185,21 +206,47 @@ bool prepare(const TransferOptions& options, Target& target) {
   if (!read_descriptions(options.common, target.network)) {
     return false;
   }
-  const describe::Description& description = target.network.of(target.node);
-  std::string why;
-  if (!find_object(options.object, description, target.object, why)) {
-    print_message(why);
-    return false;
-  }
-  target.name = description.object(target.object.index, target.object.sub_index);
   target.is_type_given = !options.type.empty();
-  target.type = options.type.empty() ? description.type_of(target.object.index, target.object.sub_index)
-                                     : value_type(options.type);
-  if (!options.type.empty() && !target.type) {
+  target.type = target.is_type_given ? value_type(options.type) : std::nullopt;
+  if (target.is_type_given && !target.type) {
     print_message("'" + options.type + "' is no type; types are " + value_type_names);
     return false;
   }
-  return true;
+  const describe::Description& description = target.network.of(target.node);
+  std::error_code ignored;
+  const bool has_library = !describe::description_files(describe::user_library(), ignored).empty();
+  ObjectReference reference;
+  std::string why;
+  const bool is_known = find_object(options.object, description, reference, why);
+  const bool is_deferred =
+      description.device() == nullptr && (has_library || (!is_known && may_upload(options.common)));
+  return is_deferred || find(options, target);
+}
+
+int find_in_device(Session& session, const TransferOptions& options, Target& target) {
+  if (target.is_found) {
+    return ok;
+  }
+  std::string why;
+  ObjectReference reference;
+  const bool is_known = find_object(options.object, target.network.of(target.node), reference, why);
+  Transfer transfer;
+  const std::optional<describe::Identity> identity = read_identity(session.sdo(), options.common.timeout, transfer);
+  if (!identity && (transfer.code == CO_SDO_ERR_TIMEOUT || session.host().interrupted())) {
+    target.name = "identity (1018h)";
+    return report_failure(session, target, transfer);
+  }
+  std::optional<describe::Known> known;
+  if (identity) {
+    known = describe::find_description(describe::user_library(), *identity);
+    if (!known && !is_known) {
+      known = upload_description(session.sdo(), target.node, *identity, options.common);
+    }
+  }
+  if (known) {
+    target.network.describe(target.node, std::move(known->description));
+  }
+  return find(options, target) ? ok : usage;
 }
 
 int report_failure(Session& session, const Target& target, const Transfer& transfer) {

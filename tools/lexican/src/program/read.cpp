@@ -76,6 +76,10 @@ int run(const Options& options) {
     return status;
   }
   Session session(std::move(bus), target.node);
+  status = find_in_device(session, options, target);
+  if (status != ok) {
+    return status;
+  }
   ProgressLine progress(std::cerr, isatty(STDERR_FILENO) != 0 ? Progress::Form::bar : Progress::Form::none);
   const auto upload = [&](std::uint32_t most) {
     return session.sdo().upload(target.object.index, target.object.sub_index,

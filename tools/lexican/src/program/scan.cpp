@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "host/bus_host.hpp"
+#include "program/identity.hpp"
 #include "program/search.hpp"
 #include "program/verb.hpp"
 
 namespace lexican::program {
 namespace {
+
+constexpr std::uint32_t upload_timeout = 1000;  // ms, for each answer
 
 struct Options {
   Common common;
@@ -53,12 +57,55 @@ std::string number_text(const std::optional<std::uint32_t>& number) {
   return number ? fmt::format("{:08X}", *number) : "-";
 }
 
-void print_table(const Devices& found) {
-  print("node  state            profile         vendor:product     serial    name\n");
+struct File {
+  std::string path;
+  bool is_uploaded;
+};
+
+/// Descriptions of devices by node-ID.
+using Files = std::map<std::uint8_t, File>;
+
+/// Finds the descriptions in the user's library, and offers to upload those that devices store.
+Files find_files(const Devices& found, Host& host, const Common& common) {
+  Files files;
   for (const Device& device : found.devices) {
-    print(fmt::format("{:>4}  {:<16} {:<15} {:<17}  {:<8}  {}\n", device.found.node, state_text(device.found.state),
-                      profile_text(device.found), number_text(device.vendor) + ':' + number_text(device.product),
-                      number_text(device.serial), device.name));
+    if (!device.vendor || !device.product || host.interrupted()) {
+      continue;
+    }
+    const describe::Identity identity{*device.vendor, *device.product, device.revision.value_or(0)};
+    std::optional<describe::Known> known = describe::find_description(describe::user_library(), identity);
+    const bool is_uploaded = !known;
+    if (!known) {
+      DeviceClient client(host, device.found.node);
+      Common patient = common;
+      patient.timeout = upload_timeout;
+      known = upload_description(client.sdo(), device.found.node, identity, patient);
+    }
+    if (known) {
+      files[device.found.node] = {known->file, is_uploaded};
+    }
+  }
+  return files;
+}
+
+void print_table(const Devices& found, const Files& files) {
+  const bool has_files = !files.empty();
+  std::size_t width = 0;
+  for (const Device& device : found.devices) {
+    width = std::max(width, has_files ? device.name.size() : 0);
+  }
+  print(fmt::format("node  state            profile         vendor:product     serial    {:<{}}{}\n", "name", width,
+                    has_files ? "  description" : ""));
+  for (const Device& device : found.devices) {
+    const auto file = files.find(device.found.node);
+    const std::string description =
+        !has_files ? ""
+                   : "  " + (file == files.end() ? "-" : file->second.path) +
+                         (file != files.end() && file->second.is_uploaded ? " (uploaded from 1021h)" : "");
+    print(fmt::format("{:>4}  {:<16} {:<15} {:<17}  {:<8}  {:<{}}{}\n", device.found.node,
+                      state_text(device.found.state), profile_text(device.found),
+                      number_text(device.vendor) + ':' + number_text(device.product), number_text(device.serial),
+                      device.name, width, description));
   }
   for (const LssAddress& address : found.unconfigured) {
     print(fmt::format("   ?  {:<16} {:<15} {:08X}:{:08X}  {:08X}\n", "no node-ID", "LSS", address[0], address[1],
@@ -66,7 +113,7 @@ void print_table(const Devices& found) {
   }
 }
 
-void print_json_device(const Device& device) {
+void print_json_device(const Device& device, const Files& files) {
   nlohmann::json json = {{"node", device.found.node}};
   const auto add = [&](const char* key, const std::optional<std::uint32_t>& number) {
     if (number) {
@@ -81,9 +128,14 @@ void print_json_device(const Device& device) {
   }
   add("vendor", device.vendor);
   add("product", device.product);
+  add("revision", device.revision);
   add("serial", device.serial);
   if (!device.name.empty()) {
     json["name"] = device.name;
+  }
+  const auto file = files.find(device.found.node);
+  if (file != files.end()) {
+    json["description"] = file->second.path;
   }
   print(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
@@ -141,12 +193,15 @@ int run(const Options& options) {
   if (found.devices.empty() && found.unconfigured.empty()) {
     return report_silence(*bus, line);
   }
+  const Files files = find_files(found, host, options.common);
   if (options.common.is_json) {
-    std::for_each(found.devices.begin(), found.devices.end(), print_json_device);
+    for (const Device& device : found.devices) {
+      print_json_device(device, files);
+    }
     std::for_each(found.unconfigured.begin(), found.unconfigured.end(), print_json_address);
     return ok;
   }
-  print_table(found);
+  print_table(found, files);
   const std::size_t nodes = found.devices.size();
   print(fmt::format("{} {}", nodes, nodes == 1 ? "node" : "nodes"));
   if (!found.unconfigured.empty()) {

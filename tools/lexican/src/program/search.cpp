@@ -130,31 +130,24 @@ class Search {
   Answers answers_;
 };
 
-std::optional<std::uint32_t> read_number(SdoClient& sdo, std::uint16_t index, std::uint8_t sub) {
-  const Transfer transfer = sdo.upload(index, sub);
-  if (!transfer.done() || transfer.data.size() != 4) {
-    return std::nullopt;
-  }
-  return transfer.data[0] | static_cast<std::uint32_t>(transfer.data[1]) << 8 |
-         static_cast<std::uint32_t>(transfer.data[2]) << 16 | static_cast<std::uint32_t>(transfer.data[3]) << 24;
+std::optional<std::uint32_t> read_number(SdoClient& sdo, std::uint16_t index, std::uint8_t sub, std::uint32_t timeout) {
+  const Transfer transfer = sdo.upload(index, sub, {SdoClient::small, timeout, {}});
+  const bool is_number = transfer.done() && transfer.data.size() == 4;
+  return is_number ? std::optional(static_cast<std::uint32_t>(number_of(transfer.data))) : std::nullopt;
 }
 
 /// Reads identity and name of a device.
 Device identify(const Found& found, Host& host, std::uint32_t timeout) {
-  ClientDictionary dictionary(found.node);
-  Node node({found.node == 127 ? std::uint8_t{126} : std::uint8_t{127}, host.master_can(), host.master_timer(),
-             dictionary.table()});
-  Loop loop(host, {&node});
-  SdoClient sdo(node, loop, {SdoClient::small, timeout, {}});
-  CONodeStart(&node.stack());
+  DeviceClient client(host, found.node);
+  SdoClient& sdo = client.sdo();
   Device device;
   device.found = found;
-  device.vendor = read_number(sdo, 0x1018, 1);
-  device.product = read_number(sdo, 0x1018, 2);
-  device.serial = read_number(sdo, 0x1018, 4);
+  device.vendor = read_number(sdo, 0x1018, 1, timeout);
+  device.product = read_number(sdo, 0x1018, 2, timeout);
+  device.revision = read_number(sdo, 0x1018, 3, timeout);
+  device.serial = read_number(sdo, 0x1018, 4, timeout);
   const Transfer name = sdo.upload(0x1008, 0, {256, timeout, {}});
   device.name = name.done() ? visible_text(name.data) : std::string();
-  loop.flush(100 * millisecond);
   return device;
 }
 

@@ -65,10 +65,11 @@ Answers request_answers(Line& line, Micros answer_time);
 
 struct Device {
   Found found;
-  std::optional<std::uint32_t> vendor;   ///< 1018h:01
-  std::optional<std::uint32_t> product;  ///< 1018h:02
-  std::optional<std::uint32_t> serial;   ///< 1018h:04
-  std::string name;                      ///< 1008h
+  std::optional<std::uint32_t> vendor;    ///< 1018h:01
+  std::optional<std::uint32_t> product;   ///< 1018h:02
+  std::optional<std::uint32_t> revision;  ///< 1018h:03
+  std::optional<std::uint32_t> serial;    ///< 1018h:04
+  std::string name;                       ///< 1008h
 };
 
 struct Devices {

@@ -13,25 +13,14 @@ class Session {
  public:
   /// \a bus: as open_bus() has returned it.
   Session(std::unique_ptr<host_bus::Bus> bus, std::uint8_t server)
-      : bus_(std::move(bus)),
-        dictionary_(server),
-        node_({server == 127 ? std::uint8_t{126} : std::uint8_t{127}, host_.master_can(), host_.master_timer(),
-               dictionary_.table(),
-               [this, server](bool is_received, const CO_IF_FRM& frame) {
-                 const bool is_state = is_received && frame.Identifier == 0x700U + server && frame.DLC == 1;
-                 is_stopped_ = is_state ? (frame.Data[0] & 0x7FU) == 0x04 : is_stopped_;
-               },
-               true}) {
-    CONodeStart(&node_.stack());
-  }
-  /// Sends what is queued, such as an abort, for at most 100 ms.
-  ~Session() { loop_.flush(100 * millisecond); }
+      : bus_(std::move(bus)), client_(host_, server, [this, server](bool is_received, const CO_IF_FRM& frame) {
+          const bool is_state = is_received && frame.Identifier == 0x700U + server && frame.DLC == 1;
+          is_stopped_ = is_state ? (frame.Data[0] & 0x7FU) == 0x04 : is_stopped_;
+        }) {}
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  SdoClient& sdo() { return sdo_; }
-  Node& node() { return node_; }
-  Loop& loop() { return loop_; }
+  SdoClient& sdo() { return client_.sdo(); }
   host_bus::Bus& bus() { return *bus_; }
   BusHost& host() { return host_; }
   /// Returns true if the last heartbeat of the server during the transfers has the state Stopped.
@@ -42,11 +31,8 @@ class Session {
   Interruption interruption_;
   std::unique_ptr<host_bus::Bus> bus_;
   BusHost host_{*bus_, interruption_};
-  ClientDictionary dictionary_;
   bool is_stopped_ = false;
-  Node node_;
-  Loop loop_{host_, {&node_}};
-  SdoClient sdo_{node_, loop_};
+  DeviceClient client_;
 };
 
 /// An object of a device.
@@ -76,7 +62,8 @@ struct Target {
   std::optional<ValueType> type;  ///< of --type, else of the description or of CiA 301
   bool is_type_given = false;     ///< by --type
   describe::Network network;
-  std::string name;  ///< "606Ch:00 velocity actual value"
+  std::string name;       ///< "606Ch:00 velocity actual value"
+  bool is_found = false;  ///< false: the object is looked up when the device has been identified, see find_in_device()
 };
 
 /// Returns the name of a type: "u16".
@@ -92,5 +79,9 @@ int report_failure(Session& session, const Target& target, const Transfer& trans
 
 /// Checks the arguments, and reads the descriptions. Prints the reason if that fails.
 bool prepare(const TransferOptions& options, Target& target);
+/// Identifies the device if prepare() has not found the object, and looks it up in the description of the user's
+/// library, or in the one that the device stores. Prints the reason if that fails.
+/// \retval status of the program
+int find_in_device(Session& session, const TransferOptions& options, Target& target);
 
 }  // namespace lexican::program

@@ -72,6 +72,10 @@ std::uint32_t bit_rate_of(std::string_view text);
 /// Converts a node-ID, 1 to 127; 0: it is none.
 std::uint8_t node_of(std::string_view text);
 
+/// Asks on the terminal.
+/// \retval true  the answer is yes
+bool is_confirmed(const std::string& question);
+
 /// Prints "lexican: text" on the standard error output, control characters as question marks.
 void print_message(std::string_view text);
 /// Prints on the standard output, control characters but line ends as question marks.

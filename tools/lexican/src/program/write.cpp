@@ -91,7 +91,7 @@ int verify(Session& session, const Target& target, const Options& options, const
 int run(const Options& options, bool is_forced) {
   Target target;
   Bytes data;
-  if (!prepare(options, target) || !data_of(options, target, is_forced, data)) {
+  if (!prepare(options, target) || (target.is_found && !data_of(options, target, is_forced, data))) {
     return usage;
   }
   int status = ok;
@@ -100,6 +100,15 @@ int run(const Options& options, bool is_forced) {
     return status;
   }
   Session session(std::move(bus), target.node);
+  if (!target.is_found) {
+    status = find_in_device(session, options, target);
+    if (status == ok && !data_of(options, target, is_forced, data)) {
+      status = usage;
+    }
+  }
+  if (status != ok) {
+    return status;
+  }
   ProgressLine progress(std::cerr, isatty(STDERR_FILENO) != 0 ? Progress::Form::bar : Progress::Form::none);
   const Transfer transfer = session.sdo().download(
       target.object.index, target.object.sub_index, data,

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/identity.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+
+namespace lexican::program {
+namespace {
+
+constexpr std::uint16_t identity_object = 0x1018;
+constexpr std::uint16_t store_eds = 0x1021;
+constexpr std::uint16_t storage_format = 0x1022;
+constexpr std::uint8_t not_compressed = 0;
+constexpr std::uint32_t largest_eds = 4 * 1024 * 1024;
+
+bool is_terminal() { return isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0; }
+
+}  // namespace
+
+bool may_upload(const Common& common) { return !describe::user_library().empty() && (common.is_sure || is_terminal()); }
+
+std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t timeout, Transfer& transfer) {
+  describe::Identity identity;
+  std::uint8_t sub = 0;
+  for (std::uint32_t* const part : {&identity.vendor, &identity.product, &identity.revision}) {
+    transfer = sdo.upload(identity_object, ++sub, {SdoClient::small, timeout, {}});
+    if (!transfer.done() || transfer.data.size() != 4) {
+      return std::nullopt;
+    }
+    *part = static_cast<std::uint32_t>(number_of(transfer.data));
+  }
+  return identity;
+}
+
+std::optional<describe::Known> upload_description(SdoClient& sdo, std::uint8_t node, const describe::Identity& identity,
+                                                  const Common& common) {
+  if (!may_upload(common)) {
+    return std::nullopt;
+  }
+  const std::string library = describe::user_library();
+  const Transfer format = sdo.upload(storage_format, 0, {SdoClient::small, common.timeout, {}});
+  if (!format.done() || format.data != Bytes{not_compressed}) {
+    return std::nullopt;
+  }
+  if (!common.is_sure &&
+      !is_confirmed(fmt::format("node {} stores its description (1021h); upload it to {}?", node, library))) {
+    return std::nullopt;
+  }
+  ProgressLine progress(std::cerr, is_terminal() ? Progress::Form::bar : Progress::Form::none);
+  const Transfer eds =
+      sdo.upload(store_eds, 0, {largest_eds, common.timeout, [&](const Amount& amount) { progress.update(amount); }});
+  progress.end();
+  std::string why = eds.done() ? std::string() : eds.outcome();
+  std::optional<describe::Known> known;
+  if (eds.done()) {
+    known = describe::store_description(library, identity, {eds.data.begin(), eds.data.end()}, why);
+  }
+  if (!known) {
+    print_message(fmt::format("the description of node {} (1021h) is not used: {}", node, why));
+  }
+  return known;
+}
+
+}  // namespace lexican::program

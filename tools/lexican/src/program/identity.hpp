@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file identity.hpp
+/// The identity of a device, and the description that it stores.
+#pragma once
+
+#include "client/sdo_client.hpp"
+#include "describe/library.hpp"
+#include "program/verb.hpp"
+
+namespace lexican::program {
+
+/// Reads vendor-ID, product code and revision number (1018h).
+/// \retval nothing  the device does not have one of them; \a transfer: the one that has failed
+std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t timeout, Transfer& transfer);
+
+/// Returns true if a device may be asked for its description: the user can agree.
+bool may_upload(const Common& common);
+
+/// Uploads the EDS that a device stores (1021h) to the user's library, if the user agrees: by --yes, or on a terminal.
+/// Prints why it fails.
+/// \retval nothing  the device stores none, or in another format than text; or the user does not agree; or it has
+/// failed
+std::optional<describe::Known> upload_description(SdoClient& sdo, std::uint8_t node, const describe::Identity& identity,
+                                                  const Common& common);
+
+}  // namespace lexican::program
