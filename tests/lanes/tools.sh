@@ -33,7 +33,8 @@ undefined=shift,signed-integer-overflow,integer-divide-by-zero,float-cast-overfl
 all_cases() {
   local codict target of=$build/codict/tools/codict targets=(lexican_codict_core_tests lexican_codict_tests
     lexican_codict_program_tests lexican_codict_memory_tests lexican_codict_node_tests lexican_codict_bench codict
-    codict_words lexican_tool lexican_words lexican_tool_tests "${tool_fuzz_targets[@]/%/_fuzz}")
+    codict_words lexican_tool lexican_words lexican_tool_tests lexican-demo-node
+    "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
     -DCMAKE_CXX_FLAGS_DEBUG="-O0" -DLEXICAN_SANITIZE=address,$undefined \
     -DLEXICAN_TEST_OPTIONS="-O0;-fno-sanitize=all" -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON || return
@@ -52,6 +53,8 @@ all_cases() {
   check "installation of the bus tool" install_program lexican
   check "docs/pictures shows the output of codict check" same_screen "$of/codict"
   run_tap "$root/tools/codict/tests/page_test.py" "$of/codict" "$root/tools/codict/tests/fixtures"
+  run_tap "$root/tools/lexican/tests/pages.py" "$build/codict/tools/lexican/lexican" \
+    "$build/codict/demo/linux_node/lexican-demo-node"
 }
 
 same_screen() {  # CODICT
