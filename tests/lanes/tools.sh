@@ -4,7 +4,7 @@ minutes=${full:+5}
 : "${minutes:=2}"
 . "$root/tests/fuzz/build.sh"
 packages=("${build_packages[@]}" "${tool_packages[@]}")
-[ -z "$full" ] || packages+=("${clang_packages[@]}" "${arm_packages[@]}" python3 chromium groff-base=groff)
+[ -z "$full" ] || packages+=("${clang_packages[@]}" "${arm_packages[@]}" python3 chromium groff-base=groff tmux)
 
 # The contributor's run builds and tests only the library of the tool, without sanitizers and fuzz targets: the program
 # takes longer to build.
@@ -31,7 +31,7 @@ linked_statically() {
 # sixth of the time: reports have the names of functions.
 undefined=shift,signed-integer-overflow,integer-divide-by-zero,float-cast-overflow,bounds,bool,enum,return,unreachable
 all_cases() {
-  local codict target of=$build/codict/tools/codict targets=(lexican_codict_core_tests lexican_codict_tests
+  local codict target script of=$build/codict/tools/codict targets=(lexican_codict_core_tests lexican_codict_tests
     lexican_codict_program_tests lexican_codict_memory_tests lexican_codict_node_tests lexican_codict_bench codict
     codict_words lexican_tool lexican_words lexican_tool_tests lexican-demo-node
     "${tool_fuzz_targets[@]/%/_fuzz}")
@@ -53,8 +53,10 @@ all_cases() {
   check "installation of the bus tool" install_program lexican
   check "docs/pictures shows the output of codict check" same_screen "$of/codict"
   run_tap "$root/tools/codict/tests/page_test.py" "$of/codict" "$root/tools/codict/tests/fixtures"
-  run_tap "$root/tools/lexican/tests/pages.py" "$build/codict/tools/lexican/lexican" \
-    "$build/codict/demo/linux_node/lexican-demo-node"
+  for script in pages terminal; do
+    run_tap "$root/tools/lexican/tests/$script.py" "$build/codict/tools/lexican/lexican" \
+      "$build/codict/demo/linux_node/lexican-demo-node"
+  done
 }
 
 same_screen() {  # CODICT
