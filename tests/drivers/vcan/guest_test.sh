@@ -510,6 +510,8 @@ verdict $? "SRDO: SIGTERM ends the nodes with status 0" "status $?"
 lexican-demo-srdo -i vcan0 >/tmp/trace 2>&1
 verdict $? "SRDO: the motor stops when the button is pressed and when its contact fails" "$(cat /tmp/trace)"
 
+. /lexican_verbs
+
 # --- The driver of SJA1000 on a PCI card of QEMU; the other end is the kernel's driver on a second card.
 
 can=can0 node_id=10 request=60A response=58A heartbeat=70A emcy=08A
