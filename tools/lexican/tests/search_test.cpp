@@ -5,18 +5,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <deque>
 #include <functional>
 #include <map>
-#include <memory>
 #include <set>
 
 #include "frame_bits.hpp"
-#include "host/node.hpp"
-#include "virtual_bus.hpp"
-#include "virtual_clock.hpp"
+#include "virtual_network.hpp"
 
 namespace {
 
@@ -26,7 +20,6 @@ using program::Found;
 using program::request_answers;
 
 constexpr Micros answer_time = 80 * millisecond;
-constexpr std::uint32_t bit_rate = 500'000;
 
 CO_IF_FRM answer_of(std::uint8_t node, std::uint32_t type = 0x00020192) {
   CO_IF_FRM frame{0x580U + node, {0x43, 0x00, 0x10, 0x00}, 8};
@@ -109,7 +102,7 @@ class Wire : public program::Line {
   }
   Micros occupy(const CO_IF_FRM& frame, Micros from) {
     const Micros bits = co::frame_bits(frame) + co::intermission_bits;
-    free_ = std::max(free_, from) + bits * second / bit_rate;
+    free_ = std::max(free_, from) + bits * second / VirtualNetwork::bit_rate;
     return free_;
   }
 
@@ -117,72 +110,6 @@ class Wire : public program::Line {
   Micros free_ = 0;
   std::multimap<Micros, CO_IF_FRM> arriving_;
   std::map<std::uint8_t, Micros> in_flight_;  // node-ID and end of the time for its answer
-};
-
-/// A bus of 500 kbit/s with nodes of the stack, in virtual time, as the bus of a host.
-class Network : public Host {
- public:
-  Network() {
-    bus_.set_time([this] { return clock_.time(); });
-    bus_.pace(bit_rate);
-  }
-
-  /// \a node: node-ID, or CO_LSS_NO_NODE_ID.
-  void add(std::uint8_t node, std::uint32_t serial) {
-    devices_.push_back(std::make_unique<Member>(*this, node, serial));
-    CONodeStart(&devices_.back()->node.stack());
-    wait(millisecond);
-  }
-
-  Can device_can() override { return master_can(); }
-  Can master_can() override { return {&co::VirtualBusDriver, &master_}; }
-  Timer device_timer() override { return master_timer(); }
-  Timer master_timer() override { return {&co::VirtualTimerDriver, &timer_}; }
-  Micros now() override { return static_cast<Micros>(clock_.time().count()); }
-  void wait(Micros time) override {
-    for (const auto& device : devices_) {
-      device->node.process();
-    }
-    const auto due = static_cast<Micros>(bus_.next_due().count());
-    const Micros until_due = due > now() ? due - now() : 0;
-    const auto step = static_cast<std::int64_t>(std::min({time, until_due, second}));
-    clock_.advance(clock_.ticks(std::chrono::microseconds{step}));
-  }
-  bool interrupted() override { return false; }
-
- private:
-  struct Member {
-    Member(Network& network, std::uint8_t id, std::uint32_t serial)
-        : objects{{
-              {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x00020192},
-              {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)0},
-              {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&name)},
-              {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)4},
-              {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0xB7},
-              {CO_KEY(0x1018, 2, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x2001},
-              {CO_KEY(0x1018, 3, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)3},
-              {CO_KEY(0x1018, 4, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(serial)},
-              {CO_KEY(0x1200, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)2},
-              {CO_KEY(0x1200, 1, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)0x600},
-              {CO_KEY(0x1200, 2, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)0x580},
-          }},
-          timer(network.clock_),
-          node({id,
-                {&co::VirtualBusDriver, &network.bus_.attach({"device"})},
-                {&co::VirtualTimerDriver, &timer},
-                {objects.data(), static_cast<std::uint16_t>(objects.size())}}) {}
-
-    CO_OBJ_STR name{0, reinterpret_cast<const std::uint8_t*>("SD-400 servo drive")};
-    std::array<CO_OBJ, 11> objects;
-    co::VirtualTimer timer;
-    Node node;
-  };
-
-  co::VirtualClock clock_;
-  co::VirtualBus bus_;
-  co::VirtualBus::Port& master_ = bus_.attach({"adapter", 512, 10, false});
-  co::VirtualTimer timer_{clock_};
-  std::vector<std::unique_ptr<Member>> devices_;
 };
 
 std::vector<unsigned> nodes(const std::vector<Found>& found) {
@@ -332,7 +259,7 @@ TEST_CASE("scan: a device without node-ID is noticed by its answer") {
 TEST_CASE("scan: 127 devices, and 2 among 127 node-IDs, are identified within 1.5 s at 500 kbit/s") {
   for (const unsigned step : {1U, 126U}) {
     CAPTURE(step);  // 126: devices 1 and 127
-    Network network;
+    VirtualNetwork network;
     for (unsigned node = 1; node <= 127; node += step) {
       network.add(static_cast<std::uint8_t>(node), 0x1A0 + node);
     }
@@ -355,7 +282,7 @@ TEST_CASE("scan: 127 devices, and 2 among 127 node-IDs, are identified within 1.
 }
 
 TEST_CASE("scan: devices without node-ID are listed by their LSS address, and remain unconfigured") {
-  Network network;
+  VirtualNetwork network;
   network.add(5, 0x1A2);
   network.add(CO_LSS_NO_NODE_ID, 0x1A9);
   network.add(CO_LSS_NO_NODE_ID, 0x1A7);
