@@ -26,9 +26,9 @@ class VirtualNetwork : public Host {
     bus_.pace(bit_rate);
   }
 
-  /// \a node: node-ID, or CO_LSS_NO_NODE_ID.
-  void add(std::uint8_t node, std::uint32_t serial) {
-    devices_.push_back(std::make_unique<Member>(*this, node, serial));
+  /// \a node: node-ID, or CO_LSS_NO_NODE_ID. \a domain: bytes of the object 2009h.
+  void add(std::uint8_t node, std::uint32_t serial, std::uint32_t domain = 1) {
+    devices_.push_back(std::make_unique<Member>(*this, node, serial, domain));
     CONodeStart(&devices_.back()->node.stack());
     wait(millisecond);
   }
@@ -49,10 +49,16 @@ class VirtualNetwork : public Host {
   }
   bool interrupted() override { return false; }
 
+  /// Returns the bytes of 2009h of the node that was added as number \a n, from 0 on.
+  std::vector<std::uint8_t>& domain(std::size_t n) { return devices_[n]->bytes; }
+  co::VirtualBus& bus() { return bus_; }
+
  private:
   struct Member {
-    Member(VirtualNetwork& network, std::uint8_t id, std::uint32_t serial)
-        : objects{{
+    Member(VirtualNetwork& network, std::uint8_t id, std::uint32_t serial, std::uint32_t size)
+        : bytes(size),
+          domain{0, size, bytes.data()},
+          objects{{
               {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x00020192},
               {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)0},
               {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&name)},
@@ -64,6 +70,7 @@ class VirtualNetwork : public Host {
               {CO_KEY(0x1200, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)2},
               {CO_KEY(0x1200, 1, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)0x600},
               {CO_KEY(0x1200, 2, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)0x580},
+              {CO_KEY(0x2009, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&domain)},
           }},
           timer(network.clock_),
           node({id,
@@ -71,8 +78,10 @@ class VirtualNetwork : public Host {
                 {&co::VirtualTimerDriver, &timer},
                 {objects.data(), static_cast<std::uint16_t>(objects.size())}}) {}
 
+    std::vector<std::uint8_t> bytes;
+    CO_OBJ_DOM domain;
     CO_OBJ_STR name{0, reinterpret_cast<const std::uint8_t*>("SD-400 servo drive")};
-    std::array<CO_OBJ, 11> objects;
+    std::array<CO_OBJ, 12> objects;
     co::VirtualTimer timer;
     Node node;
   };
