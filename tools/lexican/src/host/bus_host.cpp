@@ -23,8 +23,9 @@ const CO_IF_CAN_DRV_EX BusHost::driver = {
     CONodeCanReport,
 };
 
-std::int16_t BusHost::End::read(CO_IF_FRM& frame) const {
+std::int16_t BusHost::End::read(CO_IF_FRM& frame) {
   const std::optional<host_bus::Entry> entry = bus.receive();
+  may_have_frames = entry.has_value();
   if (!entry) {
     return is_lost() ? std::int16_t{-1} : std::int16_t{0};
   }
@@ -62,7 +63,8 @@ std::uint32_t BusHost::lost_frames() {
 void BusHost::wait(Micros time) {
   pollfd wanted[] = {device_.bus.wanted(), master_.bus.wanted()};
   timespec timeout{};
-  const Micros limit = std::min(time, second);
+  const bool has_frames = device_.may_have_frames || master_.may_have_frames;
+  const Micros limit = has_frames ? 0 : std::min(time, second);
   timeout.tv_sec = static_cast<time_t>(limit / second);
   timeout.tv_nsec = static_cast<long>(limit % second * 1000);
   ppoll(wanted, 2, &timeout, &interruption_.while_waiting());

@@ -37,11 +37,12 @@ class BusHost : public Host {
   /// The bus as a node uses it.
   struct End {
     bool is_lost() const { return bus.wanted().fd < 0; }
-    std::int16_t read(CO_IF_FRM& frame) const;
+    std::int16_t read(CO_IF_FRM& frame);
     std::int16_t send(const CO_IF_FRM& frame) const;
 
     host_bus::Bus& bus;
     Role role;
+    bool may_have_frames = false;  // the bus may have received more frames than were read; poll() does not report them
   };
   static const CO_IF_CAN_DRV_EX driver;
 
