@@ -143,11 +143,13 @@ class Share {
 
   /// Frames for an adapter that takes no more wait here; meanwhile the programs are not read, so that they wait, too.
   void forward() {
+    bool has_frames = false;
     for (unsigned n = 0; n < frames_in_turn; ++n) {
       const std::optional<Entry> entry = adapter_->receive();
       if (!entry) {
         break;
       }
+      has_frames = true;
       to_programs(entry->frame, nullptr);
       if ((entry->frame.Identifier & CO_IF_FRM_ERROR) == 0) {
         socketcand_.send(*entry);
@@ -159,6 +161,7 @@ class Share {
         if (!entry) {
           break;
         }
+        has_frames = true;
         waiting_ = entry->frame;
         to_programs(entry->frame, bus.get());
         socketcand_.send(*entry);
@@ -169,9 +172,10 @@ class Share {
       if (!waiting_) {
         break;
       }
+      has_frames = true;
       to_programs(*waiting_, nullptr);
     }
-    is_busy_ = !flush();
+    is_busy_ = !flush() || has_frames;  // poll() does not report frames that are already in the memory of a bus
   }
 
   /// \retval true  no frame waits for the adapter
