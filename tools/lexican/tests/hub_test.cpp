@@ -13,7 +13,10 @@
 #include <filesystem>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "frame_bits.hpp"
 
 namespace {
 
@@ -57,9 +60,26 @@ std::vector<std::string> read(Bus& bus) {
 
 using Texts = std::vector<std::string>;
 
+/// Returns all frames that a bus has received, with the time of each.
+std::vector<std::pair<Micros, std::string>> read_with_times(Bus& bus) {
+  std::vector<std::pair<Micros, std::string>> frames;
+  while (const std::optional<Entry> entry = bus.receive()) {
+    frames.emplace_back(entry->time, to_text(entry->frame));
+  }
+  return frames;
+}
+
+constexpr std::uint32_t paced_rate = 500'000;
+
+/// Returns the time of a frame of \a text, in bits on the wire.
+unsigned bits(const char* text) { return co::frame_bits(frame(text)); }
+
+constexpr Micros micros_of(unsigned bits) { return Micros{bits} * 1'000'000 / paced_rate; }
+
 /// A server in this process with some clients, which know its greeting.
 struct Hub {
-  explicit Hub(unsigned clients, const std::string& greeting = "simulated") : server(greeting) {
+  explicit Hub(unsigned clients, const std::string& greeting = "simulated", std::uint32_t bit_rate = 0)
+      : server(greeting, bit_rate) {
     std::string why;
     REQUIRE_MESSAGE(server.open(runtime.socket(), why), why);
     for (unsigned n = 0; n < clients; ++n) {
@@ -366,4 +386,122 @@ TEST_CASE("hub: the first program starts the server, which ends after the last o
   }
   const std::unique_ptr<Bus> again = open_hub("bench", why);
   CHECK(again != nullptr);
+}
+
+TEST_CASE("hub: on a paced hub a frame arrives when its last bit has ended") {
+  Hub hub(2, "simulated 500000", paced_rate);
+  CHECK_FALSE(hub.buses[0]->is_physical());
+  CHECK(hub.buses[0]->bit_rate() == paced_rate);
+  CHECK_FALSE(hub.server.due());
+  CHECK(hub.buses[0]->send(frame("123#AABB")));
+  CHECK(hub.buses[0]->send(frame("12345678#R8")));
+  hub.server.process(1000);
+  CHECK(read(*hub.buses[1]).empty());
+  const Micros first = 1000 + micros_of(bits("123#AABB"));
+  CHECK(hub.server.due() == first);
+  hub.server.process(first - 1);
+  CHECK(read(*hub.buses[1]).empty());
+  hub.server.process(first);
+  CHECK(read_with_times(*hub.buses[1]) == std::vector<std::pair<Micros, std::string>>{{first, "123#AABB"}});
+  const Micros second = first + micros_of(co::intermission_bits + bits("12345678#R8"));
+  hub.server.process(second + 5000);
+  CHECK(read_with_times(*hub.buses[1]) == std::vector<std::pair<Micros, std::string>>{{second, "12345678#R8"}});
+  CHECK_FALSE(hub.server.due());
+}
+
+TEST_CASE("hub: on a paced hub the frame with the highest priority is next, of the first frame of each program") {
+  Hub hub(6, "simulated 500000", paced_rate);
+  CHECK(hub.buses[0]->send(frame("700#")));  // idle bus: it starts at once
+  hub.server.process(0);
+  CHECK(hub.buses[0]->send(frame("001#")));
+  CHECK(hub.buses[1]->send(frame("123#R")));
+  CHECK(hub.buses[1]->send(frame("000#")));  // behind 123#R
+  CHECK(hub.buses[2]->send(frame("123#01")));
+  CHECK(hub.buses[3]->send(frame("048D0000#")));  // base ID 123h
+  CHECK(hub.buses[4]->send(frame("04880000#")));  // base ID 122h
+  hub.server.process(10);
+  hub.server.process(1'000'000);
+  CHECK(read(*hub.buses[5]) == Texts{"700#", "001#", "04880000#", "123#01", "123#R", "000#", "048D0000#"});
+}
+
+TEST_CASE("hub: a client that sends faster than a paced hub waits, and loses nothing") {
+  Hub hub(2, "simulated 500000", paced_rate);
+  constexpr unsigned number = 2000;
+  unsigned received = 0;
+  unsigned waits = 0;
+  Micros now = 0;
+  Micros last = 0;
+  for (unsigned n = 0; received < number;) {
+    if (n < number && hub.buses[0]->send(frame("123#"))) {
+      ++n;
+      continue;
+    }
+    waits += n < number ? 1U : 0U;
+    hub.server.process(now);
+    for (const auto& [time, text] : read_with_times(*hub.buses[1])) {
+      CHECK(time - last >= micros_of(bits("123#")));
+      last = time;
+      ++received;
+    }
+    now = hub.server.due().value_or(now);
+  }
+  CHECK(waits > 0);
+  CHECK(last == micros_of(number * (bits("123#") + co::intermission_bits) - co::intermission_bits));
+}
+
+TEST_CASE("hub: the frames of a program that has closed a paced hub are sent") {
+  Hub hub(2, "simulated 500000", paced_rate);
+  CHECK(hub.buses[0]->send(frame("123#01")));
+  CHECK(hub.buses[0]->send(frame("123#02")));
+  hub.buses.erase(hub.buses.begin());
+  hub.server.process(0);
+  CHECK(hub.server.clients() == 2);
+  CHECK(hub.server.wanted()[1].fd == -1);  // poll() would return at once
+  const std::unique_ptr<Bus> next = hub.connect();
+  hub.server.process(1000);
+  hub.server.process(2000);
+  CHECK(read(*hub.buses[0]) == Texts{"123#01", "123#02"});
+  CHECK(hub.server.clients() == 2);
+  CHECK(read(*next) == Texts{"123#01", "123#02"});
+}
+
+TEST_CASE("hub: a paced hub continues when the clock is set back") {
+  Hub hub(2, "simulated 500000", paced_rate);
+  constexpr Micros late = 10'000'000'000;
+  for (const char* const text : {"123#01", "123#02"}) {
+    CHECK(hub.buses[0]->send(frame(text)));
+  }
+  hub.server.process(late);
+  hub.server.process(50);
+  hub.server.process(1000);
+  CHECK(read_with_times(*hub.buses[1]) ==
+        std::vector<std::pair<Micros, std::string>>{
+            {50 + micros_of(bits("123#01")), "123#01"},
+            {50 + micros_of(bits("123#01") + co::intermission_bits + bits("123#02")), "123#02"}});
+}
+
+TEST_CASE("hub: the first program decides the bit rate, and another one is refused") {
+  Runtime runtime;
+  std::string why;
+  const std::unique_ptr<Bus> first = open_hub("paced@500k", why);
+  REQUIRE_MESSAGE(first != nullptr, why);
+  CHECK(first->bit_rate() == 500'000);
+  const std::unique_ptr<Bus> any = open_hub("paced", why);
+  REQUIRE_MESSAGE(any != nullptr, why);
+  CHECK(any->bit_rate() == 500'000);
+  CHECK_FALSE(any->is_physical());
+  CHECK(open_hub("paced@500000", why) != nullptr);
+  CHECK(open_hub("paced@250k", why) == nullptr);
+  CHECK(why == "the hub has 500000 bit/s, not 250000 bit/s: open it without @, or end the programs that use it");
+  const std::unique_ptr<Bus> without = open_hub("unpaced", why);
+  REQUIRE_MESSAGE(without != nullptr, why);
+  CHECK(without->bit_rate() == 0);
+  CHECK(open_hub("unpaced@500k", why) == nullptr);
+  CHECK(why == "the hub has no bit rate, not 500000 bit/s: open it without @, or end the programs that use it");
+  CHECK(open_hub("paced@", why) == nullptr);
+  CHECK(why == "'' is not a bit rate, such as 500k, 1M or 500000");
+  for (const char* const name : {"paced@9999", "paced@1000001"}) {
+    CHECK(open_hub(name, why) == nullptr);
+    CHECK(why == "the bit rate of a hub is 10k to 1M");
+  }
 }

@@ -34,6 +34,13 @@ TEST_CASE("open_bus: a name selects the kind of bus, and listening does not send
   std::filesystem::remove_all(directory);
 }
 
+TEST_CASE("open_bus: only an adapter needs a bit rate") {
+  CHECK(needs_rate("slcan:/dev/ttyACM0", {}));
+  for (const char* const name : {"slcan:/dev/ttyACM0@500k", "hub:bench", "hub:bench@500k", "can0", "slcan-pty"}) {
+    CHECK(!needs_rate(name, {}));
+  }
+}
+
 TEST_CASE("open_bus: a bus that cannot be opened is named with the reason") {
   std::string why;
   CHECK(open_bus("hub:../x", {}, why) == nullptr);

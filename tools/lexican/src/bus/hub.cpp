@@ -16,6 +16,7 @@
 #include <cstring>
 
 #include "bus/hub_messages.hpp"
+#include "bus/open.hpp"
 
 namespace lexican::host_bus {
 namespace {
@@ -24,6 +25,8 @@ constexpr std::string_view greeting = "lexican-hub 1 ";
 constexpr const char* no_hub = "the program at this socket is not a hub of this version of lexican";
 constexpr const char* ended = "the hub has ended";
 constexpr std::size_t longest_greeting = 64;
+constexpr std::uint32_t lowest_rate = 10'000;  // bit/s, of a paced hub
+constexpr std::uint32_t highest_rate = 1'000'000;
 constexpr int greeting_timeout = 1000;  // ms
 constexpr Micros linger = 2'000'000;    // that a hub without clients waits for the next one
 
@@ -110,26 +113,26 @@ bool run_in_background(HubServer& server) {
 
 /// Starts the server of a hub, unless another program has done so meanwhile, and connects to it.
 /// \retval -1  \a why or errno says why
-int start(const std::string& path, const sockaddr_un& address, std::string& why) {
+int start(const std::string& path, const sockaddr_un& address, std::uint32_t bit_rate, std::string& why) {
   const Lock lock(path);
   const int fd = connect_to(address);
   if (fd >= 0) {
     return fd;
   }
   unlink(path.c_str());
-  HubServer server("simulated");
+  HubServer server(bit_rate != 0 ? "simulated " + std::to_string(bit_rate) : "simulated", bit_rate);
   return server.open(path, why) && run_in_background(server) ? connect_to(address) : -1;
 }
 
-/// Connects to the server of a hub; starts it if there is none.
+/// Connects to the server of a hub; starts it, with this bit rate, if there is none.
 /// \retval -1  \a why says why
-int connect_or_start(const std::string& path, std::string& why) {
+int connect_or_start(const std::string& path, std::uint32_t bit_rate, std::string& why) {
   sockaddr_un address{};
   if (!address_of(path, address, why)) {
     return -1;
   }
   int fd = connect_to(address);
-  fd = fd >= 0 ? fd : start(path, address, why);
+  fd = fd >= 0 ? fd : start(path, address, bit_rate, why);
   if (fd < 0 && why.empty()) {
     why = "the hub at " + path + " does not answer: " + std::strerror(errno);
   }
@@ -146,7 +149,9 @@ bool is_ended(HubServer& server) {
 
 class HubBus : public Bus {
  public:
-  HubBus(std::string path, bool starts_server) : path_(std::move(path)), starts_server_(starts_server) {}
+  /// \a bit_rate: that the hub has to have; 0: any.
+  HubBus(std::string path, bool starts_server, std::uint32_t bit_rate)
+      : path_(std::move(path)), starts_server_(starts_server), required_rate_(bit_rate), bit_rate_(bit_rate) {}
   ~HubBus() override { disconnect(""); }
   HubBus(const HubBus&) = delete;
   HubBus& operator=(const HubBus&) = delete;
@@ -189,7 +194,7 @@ class HubBus : public Bus {
     std::string why;
     sockaddr_un address{};
     if (starts_server_) {
-      fd_ = connect_or_start(path_, why);
+      fd_ = connect_or_start(path_, bit_rate_, why);
     } else if (address_of(path_, address, why)) {
       fd_ = connect_to(address);
       why = fd_ >= 0 ? "" : path_ + ": " + std::strerror(errno);
@@ -220,18 +225,24 @@ class HubBus : public Bus {
 
  private:
   void read_greeting(std::string_view text) {
-    constexpr std::string_view physical = "physical ";
+    constexpr std::string_view simulated = "simulated";
     if (text.substr(0, greeting.size()) != greeting) {
       disconnect(no_hub);
       return;
     }
     text.remove_prefix(greeting.size());
     is_greeted_ = true;
-    is_physical_ = text != "simulated";
-    bit_rate_ = 0;
-    if (text.substr(0, physical.size()) == physical) {
-      parse_number(text.substr(physical.size()), bit_rate_);
+    is_physical_ = text.substr(0, simulated.size()) != simulated;
+    const std::size_t space = text.find(' ');
+    std::uint32_t rate = 0;
+    if (space != std::string_view::npos) {
+      parse_number(text.substr(space + 1), rate);
     }
+    if (required_rate_ != 0 && rate != required_rate_) {
+      disconnect("the hub " + (rate == 0 ? "has no bit rate" : "has " + std::to_string(rate) + " bit/s") + ", not " +
+                 std::to_string(required_rate_) + " bit/s: open it without @, or end the programs that use it");
+    }
+    bit_rate_ = fd_ >= 0 ? rate : bit_rate_;
   }
 
   std::optional<Entry> entry_of(std::string_view bytes) {
@@ -252,21 +263,22 @@ class HubBus : public Bus {
     return std::nullopt;
   }
 
-  void disconnect(const char* why) {
+  void disconnect(std::string why) {
     if (fd_ >= 0) {
       close(fd_);
     }
     fd_ = -1;
-    fault_ = why;
+    fault_ = std::move(why);
   }
 
   std::string path_;
   bool starts_server_;
   int fd_ = -1;
   bool is_greeted_ = false;
-  bool is_refused_ = false;  // the last frame to send
-  bool is_physical_ = true;  // until the greeting says otherwise
-  std::uint32_t bit_rate_ = 0;
+  bool is_refused_ = false;      // the last frame to send
+  bool is_physical_ = true;      // until the greeting says otherwise
+  std::uint32_t required_rate_;  // bit/s; 0: any
+  std::uint32_t bit_rate_;       // of the greeting, and of a server that is started
   std::uint64_t lost_ = 0;
   std::string fault_;
 };
@@ -278,7 +290,12 @@ void run_hub(HubServer& server) {
   Micros now = last_used;
   while (now - last_used < linger || !is_ended(server)) {
     std::vector<pollfd> wanted = server.wanted();
-    poll(wanted.data(), wanted.size(), 500);
+    constexpr Micros longest = 500'000;
+    const Micros time = clock_now(CLOCK_REALTIME);
+    const Micros due = server.due().value_or(time + longest);
+    const Micros limit = due > time ? std::min(due - time, longest) : 0;
+    const timespec timeout{0, static_cast<long>(limit * 1000)};
+    ppoll(wanted.data(), wanted.size(), &timeout, nullptr);
     server.process(clock_now(CLOCK_REALTIME));
     now = clock_now(CLOCK_MONOTONIC);
     last_used = server.clients() != 0 ? now : last_used;
@@ -299,22 +316,31 @@ std::string hub_path(const std::string& name, std::string& why) {
   return make_directory(directory, why) ? directory + '/' + name + ".hub" : std::string();
 }
 
-std::unique_ptr<Bus> open_hub(const std::string& name, std::string& why) {
+std::unique_ptr<Bus> open_hub(std::string name, std::string& why) {
+  why.clear();
+  BusOptions options;
+  if (!split_rate(name, options, why)) {
+    return nullptr;
+  }
+  if (options.bit_rate != 0 && (options.bit_rate < lowest_rate || options.bit_rate > highest_rate)) {
+    why = "the bit rate of a hub is 10k to 1M";
+    return nullptr;
+  }
   const std::string path = hub_path(name, why);
   constexpr unsigned most_tries = 3;  // a server may end at this moment
   for (unsigned n = 0; n < most_tries && !path.empty(); ++n) {
-    auto bus = std::make_unique<HubBus>(path, true);
-    if (bus->restore() && bus->is_greeted()) {
-      why.clear();
-      return bus;
-    }
+    auto bus = std::make_unique<HubBus>(path, true, options.bit_rate);
+    const bool is_greeted = bus->restore() && bus->is_greeted();
     why = bus->fault();
+    if (is_greeted) {
+      return why.empty() ? std::move(bus) : nullptr;
+    }
   }
   return nullptr;
 }
 
 std::unique_ptr<Bus> connect_to_hub(const std::string& path, std::string& why) {
-  auto bus = std::make_unique<HubBus>(path, false);
+  auto bus = std::make_unique<HubBus>(path, false, 0);
   if (!bus->restore()) {
     why = bus->fault();
     return nullptr;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "bus/hub.hpp"
+#include "bus/log_formats.hpp"
 
 namespace lexican::host_bus {
 namespace {
@@ -35,10 +36,37 @@ class ListeningBus : public Bus {
   bool listens_only_ = true;
 };
 
+/// Parses a bit rate such as 500k, 1M or 500000.
+/// \retval 0  it is none
+std::uint32_t parse_rate(std::string_view text) {
+  const char unit = text.empty() ? '0' : text.back();
+  const std::uint32_t factor = unit == 'k' ? 1000 : unit == 'M' ? 1000000 : 1;
+  text.remove_suffix(factor == 1 ? 0 : 1);
+  std::uint32_t number = 0;
+  return parse_number(text, number) && number <= UINT32_MAX / factor ? number * factor : 0;
+}
+
 }  // namespace
 
+bool split_rate(std::string& name, BusOptions& options, std::string& why) {
+  const std::size_t at = name.rfind('@');
+  if (at == std::string::npos || name.find('/', at) != std::string::npos) {
+    return true;
+  }
+  const std::string text = name.substr(at + 1);
+  const std::uint32_t rate = parse_rate(text);
+  if (rate == 0) {
+    why = "'" + text + "' is not a bit rate, such as 500k, 1M or 500000";
+    return false;
+  }
+  name.resize(at);
+  options.bit_rate = options.bit_rate != 0 ? options.bit_rate : rate;
+  return true;
+}
+
 const std::vector<BusKind> bus_kinds = {
-    {"hub:", "hub:bench", "a simulated bus between programs on this machine; it needs nothing else", false,
+    {"hub:", "hub:bench", "a simulated bus between programs on this machine; hub:bench@500k: with the timing of a wire",
+     false,
      [](const std::string& name, const BusOptions& /*options*/, std::string& why) { return open_hub(name, why); },
      nullptr},
     {"replay:", "replay:FILE", "a log of candump, pcapng, pcap or ASC; - for standard input", false, open_replay,

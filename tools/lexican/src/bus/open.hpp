@@ -12,7 +12,7 @@ struct BusKind {
   const char* prefix;   ///< that a name begins with, such as "hub:"
   const char* example;  ///< a complete name
   const char* about;    ///< a line for --help
-  bool has_rate;        ///< the name can end with @RATE
+  bool has_rate;        ///< an adapter, whose name can end with @RATE
   /// \a name: behind the prefix. Returns null, with the reason in \a why, if it cannot be opened.
   std::unique_ptr<Bus> (*open)(const std::string& name, const BusOptions& options, std::string& why);
   /// Returns true if open() fails because of the name or \a options, not because of the bus. Null: never.
@@ -32,6 +32,10 @@ bool needs_rate(const std::string& name, const BusOptions& options);
 /// Returns true if open_bus() fails because of the name or \a options, not because of the bus: an unknown kind, a bit
 /// rate that the kind does not have, or a log that cannot be read.
 bool is_wrong_name(const std::string& name, const BusOptions& options);
+
+/// Separates the rate from NAME@RATE. A rate in \a options has precedence.
+/// \retval false  it is not a rate; \a why says so
+bool split_rate(std::string& name, BusOptions& options, std::string& why);
 
 /// Opens an interface of Linux, such as can0.
 /// \retval null  \a why says why

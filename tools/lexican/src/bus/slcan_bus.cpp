@@ -46,16 +46,6 @@ static_assert(read_size / shortest_line < most_frames);
 /// Bit rates of the commands S0 to S8.
 constexpr std::array<std::uint32_t, 9> rates = {10000, 20000, 50000, 100000, 125000, 250000, 500000, 800000, 1000000};
 
-/// Parses a bit rate such as 500k, 1M or 500000.
-/// \retval 0  it is none
-std::uint32_t parse_rate(std::string_view text) {
-  const char unit = text.empty() ? '0' : text.back();
-  const std::uint32_t factor = unit == 'k' ? 1000 : unit == 'M' ? 1000000 : 1;
-  text.remove_suffix(factor == 1 ? 0 : 1);
-  std::uint32_t number = 0;
-  return parse_number(text, number) && number <= UINT32_MAX / factor ? number * factor : 0;
-}
-
 /// Returns the command that sets a bit rate, such as S6; empty: the adapter keeps its rate.
 /// \retval false  slcan does not have the rate; \a why says which ones it has
 bool rate_command(std::uint32_t bit_rate, std::string& command, std::string& why) {
@@ -67,24 +57,6 @@ bool rate_command(std::uint32_t bit_rate, std::string& command, std::string& why
   }
   command = is_available ? "S" + std::to_string(rate - rates.begin()) : "";
   return bit_rate == 0 || is_available;
-}
-
-/// Separates the rate from NAME@RATE. A rate in \a options has precedence.
-/// \retval false  it is not a rate; \a why says so
-bool split_rate(std::string& name, BusOptions& options, std::string& why) {
-  const std::size_t at = name.rfind('@');
-  if (at == std::string::npos || name.find('/', at) != std::string::npos) {
-    return true;
-  }
-  const std::string text = name.substr(at + 1);
-  const std::uint32_t rate = parse_rate(text);
-  if (rate == 0) {
-    why = "'" + text + "' is not a bit rate, such as 500k, 1M or 500000";
-    return false;
-  }
-  name.resize(at);
-  options.bit_rate = options.bit_rate != 0 ? options.bit_rate : rate;
-  return true;
 }
 
 // --- Descriptors
