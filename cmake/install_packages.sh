@@ -9,6 +9,11 @@
 
 . "$(dirname "${BASH_SOURCE[0]}")/progress.sh"
 
+# Libraries of the host programs in tools.
+tool_packages=(libcli11-dev=/usr/include/CLI/CLI.hpp libfmt-dev=/usr/include/fmt/format.h
+  nlohmann-json3-dev=/usr/include/nlohmann/json.hpp libpugixml-dev=/usr/include/pugixml.hpp
+  libsocketcan-dev=/usr/include/libsocketcan.h libyaml-cpp-dev=/usr/include/yaml-cpp/yaml.h zlib1g-dev=/usr/include/zlib.h)
+
 probe_found() {
   case $1 in
     /*) compgen -G "$1" >/dev/null ;;

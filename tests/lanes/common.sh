@@ -267,9 +267,6 @@ sources() {
 
 build_packages=(g++ cmake ninja-build=ninja doctest-dev=/usr/include/doctest/doctest.h
   libcli11-dev=/usr/include/CLI/CLI.hpp)
-tool_packages=(libcli11-dev=/usr/include/CLI/CLI.hpp libfmt-dev=/usr/include/fmt/format.h
-  nlohmann-json3-dev=/usr/include/nlohmann/json.hpp libpugixml-dev=/usr/include/pugixml.hpp
-  libsocketcan-dev=/usr/include/libsocketcan.h libyaml-cpp-dev=/usr/include/yaml-cpp/yaml.h zlib1g-dev=/usr/include/zlib.h)
 clang_packages=(clang libclang-rt-dev='/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-*.a')
 arm_packages=(gcc-arm-none-eabi=arm-none-eabi-g++ libnewlib-arm-none-eabi=/usr/lib/arm-none-eabi/newlib/libc.a
   libstdc++-arm-none-eabi-newlib=/usr/lib/arm-none-eabi/newlib/libstdc++.a)

@@ -7,7 +7,7 @@ Runs the examples of the pages of lexican with the demo node NODE, and compares 
 A line "$ COMMAND" of a block of language text is run on a pseudo-terminal, whose user answers questions with y; the
 lines after it are the expected output. /dev/ttyACM0 is the pseudo-terminal of the node, which is started anew for each
 page. Comments above a block prepare it:
-  <!-- before: node ARGUMENTS -->  starts the node anew, with other arguments
+  <!-- before: node ARGUMENTS -->  starts the node anew, with other arguments; -i BUS among them is LEXICAN_BUS
   <!-- before: COMMAND -->         runs a command of lexican
   <!-- not run: REASON -->         leaves the block out
 The examples of `lexican VERB --help` are run, too, and must not be wrong use.
@@ -26,7 +26,7 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
-PAGES = [*sorted((ROOT / "tools/lexican/docs").glob("*.md")), ROOT / "docs/start/5-find-a-device.md"]
+PAGES = [*sorted((ROOT / "tools/lexican/docs").glob("*.md")), ROOT / "docs/start/5-find-a-device.md", ROOT / "README.md"]
 DEVICE = "/dev/ttyACM0"
 BUS = f"slcan:{DEVICE}@500k"
 NODE_ARGUMENTS = ["--serial", str(0x80BBBA4B)]  # the serial number in the pages
@@ -126,11 +126,15 @@ class Bench:
     def start_node(self, arguments):
         self.stop_node()
         log = self.directory / "node.log"
+        if "-i" in arguments:
+            self.environment["LEXICAN_BUS"] = arguments[arguments.index("-i") + 1]
+        else:
+            arguments = ["-i", "slcan-pty", *arguments]
         with log.open("w") as file:
-            self.process = subprocess.Popen([self.node, "--serve", "-i", "slcan-pty", *arguments], stdout=file,
-                                            stderr=subprocess.STDOUT)
+            self.process = subprocess.Popen([self.node, "--serve", *arguments], stdout=file, stderr=subprocess.STDOUT,
+                                            env=self.environment)
         end = time.monotonic() + MOST_SECONDS
-        while not (found := re.search(r"/dev/pts/\d+", log.read_text())):
+        while not (found := re.search(r"/dev/pts/\d+|hub:\w+", log.read_text())):
             if self.process.poll() is not None or time.monotonic() > end:
                 raise RuntimeError(f"the node does not start: {log.read_text()}")
             time.sleep(0.02)
