@@ -550,5 +550,8 @@ TEST_CASE("monitor: the number of identifiers and of PDOs is bounded") {
     bus.frame(n | extended);
   }
   CHECK(bus.monitor.statistics().by_identifier.size() == Statistics::most_identifiers);
-  CHECK(bus.monitor.statistics().frames == Statistics::most_identifiers + 100);
+  bus.frame(7 | extended);
+  CHECK(bus.monitor.statistics().frames == Statistics::most_identifiers + 101);
+  CHECK(bus.monitor.statistics().by_identifier.at(7 | extended) == 2);
+  CHECK(bus.monitor.statistics().others == 100);
 }

@@ -258,6 +258,8 @@ void Monitor::count(const host_bus::Entry& entry) {
     ++found->second;
   } else if (statistics_.by_identifier.size() < Statistics::most_identifiers) {
     statistics_.by_identifier.emplace(entry.frame.Identifier, 1);
+  } else {
+    ++statistics_.others;
   }
 }
 

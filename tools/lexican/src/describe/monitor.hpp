@@ -39,7 +39,7 @@ struct Event {
 
 /// Numbers of the frames so far.
 struct Statistics {
-  static constexpr std::size_t most_identifiers = 4096;  ///< frames with further ones are counted in `frames` only
+  static constexpr std::size_t most_identifiers = 4096;  ///< frames with further ones are counted in `others`
 
   Micros first = 0;  ///< time of the first frame
   Micros last = 0;
@@ -47,6 +47,7 @@ struct Statistics {
   std::uint64_t bits = 0;    ///< of the frames on the wire, with stuff bits and intermissions
   std::uint64_t errors = 0;  ///< error frames
   std::map<std::uint32_t, std::uint64_t> by_identifier;  ///< with CO_IF_FRM_EXT and CO_IF_FRM_RTR
+  std::uint64_t others = 0;                              ///< frames with an identifier that is not among them
 
   /// Returns the load of the bus in per cent; 0 without bit rate or duration.
   double load(std::uint32_t bit_rate) const;

@@ -290,6 +290,10 @@ class Mon {
     if (most.size() > most_identifiers) {
       print(fmt::format("{:>11}\n", fmt::format("and {} more", most.size() - most_identifiers)));
     }
+    if (numbers.others != 0) {
+      print(fmt::format("{:>11} {:>9} frames with other identifiers than these {}\n", "others", numbers.others,
+                        most.size()));
+    }
   }
 
   static void print_json_numbers(const describe::Statistics& numbers, std::uint32_t rate, const host_bus::Bus& bus) {
@@ -302,6 +306,9 @@ class Mon {
                            {"errors", numbers.errors},
                            {"lost", bus.lost()},
                            {"identifiers", identifiers}};
+    if (numbers.others != 0) {
+      json["others"] = numbers.others;
+    }
     if (rate != 0) {
       json["load"] = numbers.load(rate);
     }
