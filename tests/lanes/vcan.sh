@@ -20,7 +20,8 @@ lane() {
 
 bus_tool() {
   local targets=(lexican_tool)
-  build_tree tool -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TOOLS=ON -DLEXICAN_DEMO=OFF -DLEXICAN_TESTS=OFF
+  build_tree tool -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TOOLS=ON -DLEXICAN_DEMO=OFF \
+    -DLEXICAN_TESTS=OFF
 }
 
 # Builds as docs/start/4-from-an-eds.md describes, with the codict that a project for another machine has built.

@@ -108,7 +108,7 @@ class Bench:
     """A directory with the files of the pages, the demo node, and the verdicts."""
 
     def __init__(self, lexican, node, directory):
-        self.lexican = lexican
+        self.lexican = os.path.abspath(lexican)
         self.node = node
         self.directory = directory
         self.device = directory / "ttyACM0"
@@ -134,12 +134,12 @@ class Bench:
             self.process = subprocess.Popen([self.node, "--serve", *arguments], stdout=file, stderr=subprocess.STDOUT,
                                             env=self.environment)
         end = time.monotonic() + MOST_SECONDS
-        while not (found := re.search(r"/dev/pts/\d+|hub:\w+", log.read_text())):
+        while not (found := re.search(r"at (/dev/pts/\d+)\n|hub:\w+\n", log.read_text())):
             if self.process.poll() is not None or time.monotonic() > end:
                 raise RuntimeError(f"the node does not start: {log.read_text()}")
             time.sleep(0.02)
         self.device.unlink(missing_ok=True)
-        self.device.symlink_to(found[0])
+        self.device.symlink_to(found[1])
 
     def stop_node(self):
         if self.process:
@@ -184,6 +184,8 @@ def run_block(bench, name, text):
         bench.report(f"{name}: {command}", "" if same else "it shows")
         if not same:
             print(f"# status {status}\n{shown}\n# and not\n{expected}", flush=True)
+            if bench.process.poll() is not None:
+                print(f"# the node has ended: {bench.process.poll()}", (bench.directory / "node.log").read_text())
 
 
 def run_page(bench, page):

@@ -28,7 +28,8 @@ class Screen:
 
     def __init__(self, bench):
         self.socket = str(bench.directory / "tmux")
-        environment = {**bench.environment, "PS1": "status $? > ", "PATH": f"{bench.directory}:{bench.environment['PATH']}"}
+        environment = {**bench.environment, "PS1": "status $? > "}
+        environment["PATH"] = f"{bench.directory}:{environment['PATH']}"
         del environment["NO_COLOR"]
         words = ["env", "-i", "TERM=screen", *(f"{name}={value}" for name, value in environment.items()), "sh"]
         self.tmux("-f", "/dev/null", "new-session", "-d", "-x", "80", "-y", "24", "-c", str(bench.directory), *words)
@@ -126,7 +127,7 @@ def test_monitor(bench, screen):
     screen.wait(lambda text: "heartbeat" in text)
     screen.tmux("send-keys", "C-c")
     shown, status = screen.end()
-    expect(bench, "Ctrl-C ends mon with its numbers and status 0", status == "0" and " 0 lost" in shown, (status, shown))
+    expect(bench, "Ctrl-C ends mon with numbers and status 0", status == "0" and " 0 lost" in shown, (status, shown))
 
 
 def test_question(bench, screen):
