@@ -139,7 +139,8 @@ class Bench:
                 raise RuntimeError(f"the node does not start: {log.read_text()}")
             time.sleep(0.02)
         self.device.unlink(missing_ok=True)
-        self.device.symlink_to(found[1])
+        if found[1]:
+            self.device.symlink_to(found[1])
 
     def stop_node(self):
         if self.process:

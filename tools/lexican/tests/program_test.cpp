@@ -485,6 +485,14 @@ TEST_CASE("lexican write: --verify names a value that reads back differently") {
         "written\n");
 }
 
+TEST_CASE("lexican write: --verify of an object that reads back with more bytes") {
+  const Bench bench{5};
+  const std::string file = bench.directory / "short.bin";
+  write_bytes(file, "abc");
+  check(bench.run("write", {"5", "2009", "--file", file, "--verify"}), 1, "",
+        "lexican: 2009h:00 was written, but reads back with more bytes\n");
+}
+
 TEST_CASE("lexican read, write: a domain of 100 KB has the same bytes in both directions") {
   const Bench bench{5};
   std::string program(100'000, '\0');
@@ -588,6 +596,18 @@ TEST_CASE("lexican: the check of a JSON schema finds faults") {
   CHECK(schema.fault_of(Json::parse(R"({"frames": 1})"), "mon") != "");
 }
 
+TEST_CASE("lexican: a log, or a path, as the bus of a verb that sends") {
+  const Directory directory;
+  const std::string log = directory / "a.log";
+  write_bytes(log, "(0.000000) can0 705#7F\n");
+  check(run({"read", "5", "1008", "-i", "replay:" + log}), 2, "",
+        "lexican: replay:" + log + " is a log, which only lexican mon can use\n");
+  const Ran ran = run({"scan", "-i", "/dev/pts/0"});
+  CHECK(has(ran.err, "lexican: '/dev/pts/0' is no bus, which is one of:\n"));
+  CHECK(has(ran.err, "slcan:/dev/ttyACM0@500k"));
+  CHECK(ran.status == 2);
+}
+
 TEST_CASE("lexican nmt: a command waits for the state that it causes") {
   const Bench bench{5};
   check(bench.run("write", {"5", "1017", "50"}), 0, heartbeat, "");
@@ -598,7 +618,7 @@ TEST_CASE("lexican nmt: a command waits for the state that it causes") {
   check(bench.run("nmt", {"preop", "5", "--timeout", "30000"}), 0, "node 5 is pre-operational\n", "");
   check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h (u32)\n", "");
   const Ran json = bench.run("nmt", {"start", "5", "--timeout", "30000", "--json"});
-  check(json, 0, "{\"command\":\"start\",\"done\":true,\"node\":\"5\"}\n", "");
+  check(json, 0, "{\"command\":\"start\",\"done\":true,\"node\":5}\n", "");
   CHECK(fault_of(json.out, "nmt") == "");
   check(bench.run("nmt", {"reset", "5", "--timeout", "30000"}), 0, "node 5 has booted\n", "");
   check(bench.run("nmt", {"reset-comm", "5", "--timeout", "30000"}), 0, "node 5 has booted\n", "");

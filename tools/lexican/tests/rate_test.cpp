@@ -26,10 +26,11 @@ using lexican::program::listen_for_rate;
 class Adapter {
  public:
   struct Kind {
-    char rate = '6';         ///< code of the bus's bit rate; 0: no frames
-    bool can_listen = true;  ///< it has the command L
-    bool is_alone = false;   ///< the device is alone with the adapter: its frames need an acknowledge
-    std::string stale = "";  ///< frames that it sends after each command C, too late
+    char rate = '6';           ///< code of the bus's bit rate; 0: no frames
+    bool can_listen = true;    ///< it has the command L
+    bool is_alone = false;     ///< the device is alone with the adapter: its frames need an acknowledge
+    std::string stale = "";    ///< frames that it sends after each command C, too late
+    std::string refused = "";  ///< letter of a command that it refuses
   };
 
   explicit Adapter(Kind kind) : kind_(std::move(kind)), fd_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
@@ -54,6 +55,11 @@ class Adapter {
   Adapter& operator=(const Adapter&) = delete;
 
   const std::string& path() const { return path_; }
+  void wait_for_command() const {
+    while (!has_command_) {
+      std::this_thread::yield();
+    }
+  }
   /// Returns the commands so far, separated by spaces. Context: after the last use of the adapter.
   std::string commands() {
     is_ended_ = true;
@@ -91,10 +97,13 @@ class Adapter {
     if (letter == 'C' || letter == 'O' || letter == 'L') {
       mode_ = letter == 'L' && !kind_.can_listen ? 'C' : letter;
     }
+    has_command_ = has_command_ || letter == 'S';
     if (letter != 't') {
       commands_ += line_ + ' ';
     }
-    answer(letter == 'L' && !kind_.can_listen ? "\a" : "\r");
+    const bool is_refused =
+        (letter == 'L' && !kind_.can_listen) || (letter != '\0' && kind_.refused == std::string(1, letter));
+    answer(is_refused ? "\a" : "\r");
     if (letter == 'C') {
       answer(kind_.stale);
     }
@@ -111,6 +120,7 @@ class Adapter {
   int device_ = -1;
   std::string path_;
   std::atomic<bool> is_ended_{false};
+  std::atomic<bool> has_command_{false};
   char rate_ = '0';
   char mode_ = 'C';
   std::string line_;
@@ -122,7 +132,7 @@ HeardRate listen(Adapter& adapter, bool acknowledges, unsigned rounds, std::uniq
   std::string why;
   std::unique_ptr<Bus> bus = open_bus("slcan:" + adapter.path(), {0, true}, why);
   REQUIRE_MESSAGE(bus != nullptr, why);
-  const HeardRate heard = listen_for_rate(*bus, {0, true, acknowledges}, 100'000, rounds, [] { return false; });
+  const HeardRate heard = listen_for_rate(*bus, {0, true, acknowledges}, 100'000, rounds, lexican::Interruption());
   if (kept != nullptr) {
     *kept = std::move(bus);
   }
@@ -172,7 +182,7 @@ TEST_CASE("rate: an adapter that goes ends the search") {
   std::unique_ptr<Bus> bus = open_bus("slcan:" + adapter->path(), {0, true}, why);
   REQUIRE(bus != nullptr);
   adapter.reset();
-  CHECK(listen_for_rate(*bus, {0, true}, 1'000'000, 100, [] { return false; }).bit_rate == 0);
+  CHECK(listen_for_rate(*bus, {0, true}, 1'000'000, 100, lexican::Interruption()).bit_rate == 0);
   CHECK(!bus->fault().empty());
 }
 
@@ -199,4 +209,31 @@ TEST_CASE("lexican: an adapter that cannot listen only is not tried without --ye
   const test::Ran sure = lexican("read 5 6041 --yes --timeout 60000 -i slcan:" + other.path());
   CHECK(sure.err.find("lexican: bit rate: 500 kbit/s (") == 0);
   CHECK(sure.status == 1);
+}
+
+TEST_CASE("lexican: Ctrl-C ends the search for the bit rate") {
+  Adapter adapter({'\0'});
+  test::Process scan({LEXICAN_PROGRAM, "scan", "-i", "slcan:" + adapter.path()}, {{"LEXICAN_BUS", ""}});
+  adapter.wait_for_command();
+  scan.send(SIGINT);
+  const test::Ran ran = scan.finish();
+  CHECK(ran.err == "lexican: interrupted\n");
+  CHECK(ran.status == 130);
+  CHECK(adapter.commands().find("S8") == std::string::npos);
+}
+
+TEST_CASE("lexican: an adapter that refuses a command or a frame is named") {
+  const auto refuses = [](const std::string& words, const std::string& command, const std::string& remedy, int status) {
+    CAPTURE(words);
+    Adapter adapter({'6', command != "L", false, "", command});
+    const test::Ran ran = lexican(words + " -i slcan:" + adapter.path() + "@500k");
+    CHECK(ran.out == "");
+    CHECK(ran.err == "lexican: slcan adapter " + adapter.path() + " has refused " + remedy + "\n");
+    CHECK(ran.status == status);
+  };
+  refuses("mon", "L", "the command L: it cannot listen only; --ack acknowledges frames", 4);
+  refuses("read 5 1008", "O", "the command O", 4);
+  refuses("read 5 1008", "S", "the command S6", 4);
+  refuses("nmt start all --yes", "t", "a frame: the command was not sent", 4);
+  refuses("read 5 1008 --timeout 500", "t", "a frame", 4);
 }

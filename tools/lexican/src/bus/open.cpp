@@ -79,7 +79,9 @@ const std::vector<BusKind> bus_kinds = {
     {"slcan-pty", "slcan-pty", "a pseudo-terminal that another program opens as its slcan adapter", false,
      open_slcan_pty, nullptr},
     {"", "can0", "a CAN interface of Linux", false, open_socketcan,
-     [](const std::string& name, const BusOptions& /*options*/) { return name.find(':') != std::string::npos; }},
+     [](const std::string& name, const BusOptions& /*options*/) {
+       return name.find_first_of(":/") != std::string::npos;
+     }},
 };
 
 namespace {

@@ -33,6 +33,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds connect_timeout{2000};
+constexpr milliseconds answer_timeout{100};
 constexpr milliseconds closing_timeout{500};  // for the rest of the text to be sent
 constexpr std::size_t shortest_line = 6;      // "t0000" and CR
 constexpr std::size_t read_size = 256;        // bytes that are read at once
@@ -241,6 +242,24 @@ class SlcanBus : public Bus {
     text_.clear();
   }
 
+  /// \retval false  there are no bytes, or no space for answers
+  bool read() {
+    std::array<char, read_size> bytes{};
+    if (fd_ < 0 || text_.size() >= most_text) {
+      return false;
+    }
+    const ssize_t size = ::read(fd_, bytes.data(), bytes.size());
+    if (size > 0) {
+      const auto now = std::chrono::system_clock::now().time_since_epoch();
+      read_time_ = static_cast<Micros>(std::chrono::duration_cast<std::chrono::microseconds>(now).count());
+      process({bytes.data(), static_cast<std::size_t>(size)});
+      flush();
+    } else if (size == 0 || (errno != EAGAIN && errno != EINTR)) {
+      on_end(reason_of(size == 0 ? EPIPE : errno));
+    }
+    return size > 0;
+  }
+
   const std::string& title() const { return title_; }
 
   int fd_ = -1;
@@ -274,24 +293,6 @@ class SlcanBus : public Bus {
       lose(reason_of(errno));
     }
     return sent > 0;
-  }
-
-  /// \retval false  there are no bytes, or no space for answers
-  bool read() {
-    std::array<char, read_size> bytes{};
-    if (fd_ < 0 || text_.size() >= most_text) {
-      return false;
-    }
-    const ssize_t size = ::read(fd_, bytes.data(), bytes.size());
-    if (size > 0) {
-      const auto now = std::chrono::system_clock::now().time_since_epoch();
-      read_time_ = static_cast<Micros>(std::chrono::duration_cast<std::chrono::microseconds>(now).count());
-      process({bytes.data(), static_cast<std::size_t>(size)});
-      flush();
-    } else if (size == 0 || (errno != EAGAIN && errno != EINTR)) {
-      on_end(reason_of(size == 0 ? EPIPE : errno));
-    }
-    return size > 0;
   }
 
   std::string title_;
@@ -353,6 +354,17 @@ class AdapterBus : public SlcanBus {
     set_commands(options, command);
     send_commands();
     return true;
+  }
+
+  /// Waits for the answers to the commands of opening. Some adapters do not answer.
+  void await_answers() {
+    const Clock::time_point end = Clock::now() + answer_timeout;
+    while (fd_ >= 0 && answers_ < commands_.size() && CORingCount(&can_.Frames) == 0 && Clock::now() < end) {
+      pollfd wanted = this->wanted();
+      poll(&wanted, 1, 5);
+      read();
+      flush();
+    }
   }
 
   std::string refusal() const override {
@@ -736,6 +748,7 @@ std::unique_ptr<Bus> open_slcan(const std::string& name, const BusOptions& optio
   }
   auto bus = std::make_unique<SerialBus>(path, with_rate, command);
   bus->restore();
+  bus->await_answers();
   return if_open(std::move(bus), why);
 }
 
@@ -763,6 +776,7 @@ std::unique_ptr<Bus> open_slcan_tcp(const std::string& name, const BusOptions& o
     return nullptr;
   }
   bus->wait_until_open();
+  bus->await_answers();
   return if_open(std::move(bus), why);
 }
 

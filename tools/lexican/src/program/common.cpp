@@ -63,7 +63,7 @@ int find_rate(host_bus::Bus& bus, const Common& common, bool listens_only) {
     print_message("listening at each bit rate; --rate 500k gives it");
   }
   const auto listen = [&](bool acknowledges) {
-    return listen_for_rate(bus, {0, true, acknowledges}, time_at_rate, rounds, Interruption::happened);
+    return listen_for_rate(bus, {0, true, acknowledges}, time_at_rate, rounds, interruption);
   };
   HeardRate heard = listen(false);
   if (heard.is_refused && !common.is_sure) {
@@ -128,6 +128,16 @@ std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only,
   }
   if (!bus->note().empty()) {
     print_message(bus->note());
+  }
+  if (bus->log() != nullptr && !listens_only) {
+    print_message(name + " is a log, which only lexican mon can use");
+    status = usage;
+    return nullptr;
+  }
+  if (!is_unknown && !bus->refusal().empty()) {
+    const bool is_listening = listens_only && !common.acknowledges;
+    print_message(bus->refusal() + (is_listening ? ": it cannot listen only; --ack acknowledges frames" : ""));
+    return nullptr;
   }
   status = is_unknown ? find_rate(*bus, common, listens_only) : ok;
   return status == ok ? std::move(bus) : nullptr;

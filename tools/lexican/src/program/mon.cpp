@@ -69,9 +69,11 @@ class Printer {
  private:
   bool is_wanted(const Event& event) const {
     return (options_.shows_all || !event.is_repeated || services_.count(event.service) != 0) &&
-           (nodes_.empty() || nodes_.count(event.node) != 0) &&
+           (nodes_.empty() || nodes_.count(event.node) != 0 || is_to_all(event)) &&
            (services_.empty() || services_.count(event.service) != 0) && has_object(event);
   }
+
+  static bool is_to_all(const Event& event) { return event.service == Service::nmt && event.node == 0; }
 
   bool has_object(const Event& event) const {
     return options_.objects.empty() ||
@@ -268,7 +270,7 @@ class Mon {
 
   void print_numbers(const describe::Statistics& numbers, std::uint32_t rate, const host_bus::Bus& bus) const {
     const double duration = static_cast<double>(numbers.last - numbers.first) / 1e6;
-    print(fmt::format("\n{} frames in {:.3f} s", numbers.frames, duration));
+    print(fmt::format("\n{} {} in {:.3f} s", numbers.frames, numbers.frames == 1 ? "frame" : "frames", duration));
     if (rate != 0 && duration > 0) {
       print(fmt::format(", bus load {:.1f} % of {} kbit/s", numbers.load(rate), rate / 1000));
     }

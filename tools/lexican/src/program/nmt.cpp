@@ -53,10 +53,11 @@ bool send(host_bus::Bus& bus, BusHost& host, const CO_IF_FRM& frame, Micros time
   return true;
 }
 
-/// Waits until an adapter has the whole command.
+/// Waits until an adapter has the whole command, and for its answer.
 void flush(host_bus::Bus& bus, BusHost& host) {
   const Micros begin = host.now();
-  while ((bus.wanted().events & POLLOUT) != 0 && host.now() - begin < 100 * millisecond) {
+  while (((bus.wanted().events & POLLOUT) != 0 || host.now() - begin < 50 * millisecond) &&
+         host.now() - begin < 100 * millisecond) {
     host.wait(millisecond);
     bus.receive();
   }
@@ -170,6 +171,7 @@ int run(const Options& options) {
       return usage;
     }
     if (!is_confirmed(fmt::format("{} {} on a physical bus?", chosen->name, options.node))) {
+      print_message("nothing was sent");
       return usage;
     }
   }
@@ -185,11 +187,17 @@ int run(const Options& options) {
     flush(session.bus(), session.host());
   }
   status = is_all ? ok : report_state(session, node, *chosen, options.common);
+  if (!session.bus().refusal().empty()) {
+    print_message(session.bus().refusal() + ": the command was not sent");
+    return bus_fault;
+  }
   if (status == ok && is_all && !options.common.is_json) {
     print(fmt::format("{} was sent to all nodes\n", chosen->name));
   }
   if (options.common.is_json) {
-    const nlohmann::json json = {{"command", chosen->name}, {"node", options.node}, {"done", status == ok}};
+    const nlohmann::json json = {{"command", chosen->name},
+                                 {"node", is_all ? nlohmann::json("all") : nlohmann::json(node)},
+                                 {"done", status == ok}};
     print(json.dump() + '\n');
   }
   return status;

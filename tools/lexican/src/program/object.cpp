@@ -260,6 +260,10 @@ int report_failure(Session& session, const Target& target, const Transfer& trans
     print_message(session.bus().fault());
     return bus_fault;
   }
+  if (!session.bus().refusal().empty()) {
+    print_message(session.bus().refusal());
+    return bus_fault;
+  }
   if (transfer.code == CO_SDO_ERR_TIMEOUT) {
     print_message(session.is_stopped()
                       ? fmt::format("node {0} is stopped and answers no SDO: lexican nmt preop {0}", target.node)

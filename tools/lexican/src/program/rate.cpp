@@ -2,6 +2,7 @@
 #include "program/rate.hpp"
 
 #include <poll.h>
+#include <time.h>
 
 #include <chrono>
 
@@ -24,12 +25,13 @@ Micros elapsed(Clock::time_point begin) {
 }
 
 /// Returns the number of valid frames.
-unsigned count_frames(host_bus::Bus& bus, Micros time, const std::function<bool()>& is_ended) {
+unsigned count_frames(host_bus::Bus& bus, Micros time, const Interruption& interruption) {
   const Clock::time_point begin = Clock::now();
   unsigned frames = 0;
-  while (elapsed(begin) < time && !is_ended() && bus.fault().empty()) {
+  while (elapsed(begin) < time && !Interruption::happened() && bus.fault().empty()) {
     pollfd wanted = bus.wanted();
-    poll(&wanted, 1, 10);
+    constexpr timespec timeout{0, 10'000'000};
+    ppoll(&wanted, 1, &timeout, &interruption.while_waiting());
     while (const std::optional<host_bus::Entry> entry = bus.receive()) {
       frames += (entry->frame.Identifier & CO_IF_FRM_ERROR) == 0 ? 1U : 0U;
     }
@@ -40,22 +42,22 @@ unsigned count_frames(host_bus::Bus& bus, Micros time, const std::function<bool(
 }  // namespace
 
 HeardRate listen_for_rate(host_bus::Bus& bus, host_bus::BusOptions options, Micros time, unsigned rounds,
-                          const std::function<bool()>& is_ended) {
+                          const Interruption& interruption) {
   HeardRate heard;
-  count_frames(bus, stale_time, is_ended);  // and answers to the commands of opening
+  count_frames(bus, stale_time, interruption);  // and answers to the commands of opening
   for (unsigned round = 0; round < rounds; ++round, time *= 3) {
     for (const std::uint32_t rate : rates) {
       options.bit_rate = rate;
       bus.configure(options);
-      count_frames(bus, stale_time, is_ended);
+      count_frames(bus, stale_time, interruption);
       const Clock::time_point begin = Clock::now();
-      heard.frames = count_frames(bus, time, is_ended);
+      heard.frames = count_frames(bus, time, interruption);
       heard.is_refused = !bus.refusal().empty();
-      if (heard.is_refused || is_ended() || !bus.fault().empty()) {
+      if (heard.is_refused || Interruption::happened() || !bus.fault().empty()) {
         return heard;
       }
       if (heard.frames != 0) {
-        heard.frames += count_frames(bus, confirmation_time, is_ended);
+        heard.frames += count_frames(bus, confirmation_time, interruption);
         heard.time = elapsed(begin);
         heard.bit_rate = rate;
         return heard;

@@ -3,9 +3,8 @@
 /// Finds the bit rate of a bus by listening: nothing is sent, and nothing is acknowledged.
 #pragma once
 
-#include <functional>
-
 #include "bus/bus.hpp"
+#include "host/interruption.hpp"
 
 namespace lexican::program {
 
@@ -18,8 +17,8 @@ struct HeardRate {
 
 /// Listens at each bit rate in turn, until a valid frame is received. Each further round listens three times as long.
 /// \a bus: an adapter, see Bus::configure(). \a options: the mode; the rates are set in turn. \a time: µs at each
-/// rate in the first round. \a is_ended: returns true when the user has interrupted the program.
+/// rate in the first round. Ends early when the user interrupts the program.
 HeardRate listen_for_rate(host_bus::Bus& bus, host_bus::BusOptions options, host_bus::Micros time, unsigned rounds,
-                          const std::function<bool()>& is_ended);
+                          const Interruption& interruption);
 
 }  // namespace lexican::program

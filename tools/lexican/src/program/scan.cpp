@@ -151,6 +151,10 @@ void print_json_address(const LssAddress& address) {
 
 /// Prints why no device has answered, by the report of the controller.
 int report_silence(const host_bus::Bus& bus, const HostLine& line) {
+  if (!bus.refusal().empty()) {
+    print_message(bus.refusal());
+    return bus_fault;
+  }
   if (line.error()) {
     const CO_IF_FRM& error = *line.error();
     print_message(

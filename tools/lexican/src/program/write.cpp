@@ -77,6 +77,10 @@ int verify(Session& session, const Target& target, const Options& options, const
   const Transfer transfer =
       session.sdo().upload(target.object.index, target.object.sub_index,
                            {static_cast<std::uint32_t>(data.size() + 1024), options.common.timeout, {}});
+  if (transfer.code == CO_SDO_ERR_MEM) {
+    print_message(target.name + " was written, but reads back with more bytes");
+    return refused;
+  }
   if (!transfer.done()) {
     return report_failure(session, target, transfer);
   }
