@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 about="demo/run: builds the demo, shows it and serves it on a hub; the commands of docs/demo.md"
 minutes=2
-packages=(g++ cmake ninja-build=ninja libcli11-dev=/usr/include/CLI/CLI.hpp python3 chromium)
+packages=(g++ cmake ninja-build=ninja "${tool_packages[@]}" python3 chromium)
 
 lane() {
   export CFLAGS=-Werror CXXFLAGS=-Werror
