@@ -485,6 +485,17 @@ TEST_CASE("lexican write: --verify names a value that reads back differently") {
         "written\n");
 }
 
+TEST_CASE("lexican write: save and load need a sub-index, and do not read back") {
+  const Bench bench{5};
+  check(bench.run("write", {"5", "1010", "save"}), 2, "",
+        "lexican: 1010h:00 cannot be written; 'save' is for 1010:1, all parameters\n");
+  check(bench.run("write", {"5", "1011", "load"}), 2, "",
+        "lexican: 1011h:00 cannot be written; 'load' is for 1011:1, all parameters\n");
+  const Ran ran = bench.run("write", {"5", "1010:1", "save", "--verify"});
+  CHECK(has(ran.err, "does not read back what is written; leave out --verify\n"));
+  CHECK(ran.status == 2);
+}
+
 TEST_CASE("lexican write: --verify of an object that reads back with more bytes") {
   const Bench bench{5};
   const std::string file = bench.directory / "short.bin";

@@ -83,9 +83,13 @@ const char* remedy_for(std::uint32_t code, bool is_described) {
     case CO_SDO_ERR_SUB:
       return is_described ? "the description may belong to another version of the device; compare 1018h"
                           : "the manual or the EDS of the device lists its objects";
-    case CO_SDO_ERR_LEN:
     case CO_SDO_ERR_LEN_HIGH:
-    case CO_SDO_ERR_LEN_SMALL: return "give the type of the object by --type";
+      return is_described ? "the value is longer than the object" : "give the type of the object by --type";
+    case CO_SDO_ERR_LEN_SMALL:
+      return is_described ? "the value is shorter than the object" : "give the type of the object by --type";
+    case CO_SDO_ERR_LEN: return "give the type of the object by --type";
+    case CO_SDO_ERR_CMD:
+      return "another program may transfer an object of this device at the same time; repeat the command";
     case CO_SDO_ERR_RD: return "the object can only be written";
     case CO_SDO_ERR_WR: return "the object can only be read";
     case CO_SDO_ERR_RANGE:

@@ -55,7 +55,17 @@ bool data_of(const Options& options, const Target& target, bool is_forced, Bytes
     data.assign(bytes.begin(), bytes.end());
     return true;
   }
-  if (options.value == describe::signature_of(target.object.index, target.object.sub_index)) {
+  const std::string_view signature = describe::signature_of(target.object.index, target.object.sub_index);
+  if (options.verifies && !signature.empty()) {
+    print_message(target.name + " does not read back what is written; leave out --verify");
+    return false;
+  }
+  if (target.object.sub_index == 0 && options.value == describe::signature_of(target.object.index, 1)) {
+    print_message(fmt::format("{0:04X}h:00 cannot be written; '{1}' is for {0:X}:1, all parameters",
+                              target.object.index, options.value));
+    return false;
+  }
+  if (options.value == signature) {
     data.assign(options.value.begin(), options.value.end());
     return true;
   }
