@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Device for the tests of lexican, described by fixtures/device.eds:
-//   lexican_test_device BUS NODE-ID [silent] [slow] [eds=FILE]
+//   lexican_test_device BUS NODE-ID [silent] [slow] [no-revision] [eds=FILE]
 // NODE-ID 255: it has none, and is an LSS slave; silent: has a heartbeat and no SDO server; slow: processes frames
-// every 50 ms; eds=FILE: stores this file in 1021h. Prints "ready" after its boot-up, then "request" for the first SDO
-// request, and "abort CODE" for each abort of the client. Runs until SIGTERM.
+// every 50 ms; no-revision: refuses 1018h:03; eds=FILE: stores this file in 1021h. Prints "ready" after its boot-up,
+// then "request" for the first SDO request, and "abort CODE" for each abort of the client. Runs until SIGTERM.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -176,6 +176,11 @@ int run(const std::string& bus_name, std::uint8_t id, bool is_silent, bool is_sl
 int main(int number, char** arguments) {
   const std::vector<std::string> words(arguments, arguments + number);
   const auto has = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  for (CO_OBJ& object : objects) {
+    if (has("no-revision") && object.Key >> 8 == 0x101803) {
+      object.Type = &refusing;
+    }
+  }
   for (const std::string& word : words) {
     if (word.compare(0, 4, "eds=") == 0) {
       std::ifstream file(word.substr(4), std::ios::binary);

@@ -375,6 +375,25 @@ TEST_CASE("lexican: a description of the user's directory is found by the identi
         "answers\n");
 }
 
+TEST_CASE("lexican: a device without revision number is identified by vendor-ID and product code") {
+  Bench bench;
+  bench.add(5, "no-revision");
+  const std::string library = bench.directory / "lexican/eds";
+  std::filesystem::create_directories(library);
+  write_bytes(library + "/drive.eds", bytes_of(eds));
+  check(bench.run("read", {"5", "position"}), 0, "2002h Position = 1000 (u32)\n", "");
+}
+
+TEST_CASE("lexican mon: --node also shows NMT commands to all nodes") {
+  const Directory directory;
+  const std::string log = directory / "a.log";
+  write_bytes(log, "(0.000000) can0 000#0200\n(0.001000) can0 705#7F\n(0.002000) can0 706#7F\n");
+  const Ran ran = run({"mon", log, "--node", "5"});
+  CHECK(has(ran.out, "NMT stop, all nodes"));
+  CHECK(has(ran.out, "  5  heartbeat"));
+  CHECK(!has(ran.out, "  6  heartbeat"));
+}
+
 TEST_CASE("lexican: the description that a device stores is uploaded with --yes") {
   Bench bench{6};
   bench.add(5, "eds=" + eds);

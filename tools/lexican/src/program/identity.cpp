@@ -27,7 +27,8 @@ std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t ti
   for (std::uint32_t* const part : {&identity.vendor, &identity.product, &identity.revision}) {
     transfer = sdo.upload(identity_object, ++sub, {SdoClient::small, timeout, {}});
     if (!transfer.done() || transfer.data.size() != 4) {
-      return std::nullopt;
+      const bool is_optional = part == &identity.revision && transfer.code != CO_SDO_ERR_TIMEOUT;
+      return is_optional ? std::optional(identity) : std::nullopt;
     }
     *part = static_cast<std::uint32_t>(number_of(transfer.data));
   }

@@ -9,8 +9,8 @@
 
 namespace lexican::program {
 
-/// Reads vendor-ID, product code and revision number (1018h).
-/// \retval nothing  the device does not have one of them; \a transfer: the one that has failed
+/// Reads vendor-ID, product code and revision number (1018h); a device without revision number has 0.
+/// \retval nothing  the device does not have one of the others; \a transfer: the one that has failed
 std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t timeout, Transfer& transfer);
 
 /// Returns true if a device may be asked for its description: the user can agree.
