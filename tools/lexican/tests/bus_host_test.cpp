@@ -3,7 +3,10 @@
 #include "host/bus_host.hpp"
 
 #include <doctest/doctest.h>
+#include <poll.h>
 #include <unistd.h>
+
+#include <csignal>
 
 namespace {
 
@@ -59,4 +62,20 @@ TEST_CASE("bus host: it does not wait while the bus may have frames that were no
   const Micros idle = host.now();
   host.wait(20 * millisecond);
   CHECK(host.now() - idle >= 20 * millisecond);
+}
+
+TEST_CASE("interruption: a second signal does not kill a program that ends because of the first") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    {
+      const Interruption interruption;
+      CHECK(!Interruption::happened());
+      raise(signal);
+      ppoll(nullptr, 0, nullptr, &interruption.while_waiting());
+      CHECK(Interruption::happened());
+      raise(signal);
+    }
+    raise(signal);
+  }
+  signal(SIGINT, SIG_DFL);
+  signal(SIGTERM, SIG_DFL);
 }

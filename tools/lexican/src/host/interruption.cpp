@@ -28,9 +28,9 @@ Interruption::Interruption() {
 }
 
 Interruption::~Interruption() {
-  handle(SIGINT, SIG_DFL);
-  handle(SIGTERM, SIG_DFL);
   sigprocmask(SIG_SETMASK, &before_, nullptr);
+  handle(SIGINT, happened() ? SIG_IGN : SIG_DFL);
+  handle(SIGTERM, happened() ? SIG_IGN : SIG_DFL);
 }
 
 bool Interruption::happened() { return interrupted != 0; }
