@@ -90,9 +90,10 @@ done
 lexican share -i vcan0 --pty >/tmp/share 2>&1 &
 share=$!
 printed "/dev/pts/" /tmp/share
-grep -q "^hub:vcan0, socketcand 127.0.0.1:29536/can0" /tmp/share
+grep -q "^hub:vcan0, socketcand 127.0.0.1:29536/can0.*, slcan-tcp:127.0.0.1:29537" /tmp/share
 verdict $? "lexican: share names its ways" "$(cat /tmp/share)"
 python_can socketcand 127.0.0.1 29536 5
+python_can slcan socket://127.0.0.1:29537 5
 got=$(lexican read 5 1018:2 -i hub:vcan0 2>&1)
 [ "$got" = "1018h:02 product code = 0000C10Ch (u32)" ]
 verdict $? "lexican: read through the hub of share" "got '$got'"
@@ -113,6 +114,8 @@ kill $slcand
 wait $slcand
 kill -INT $share
 wait $share
-verdict $? "lexican: Ctrl-C ends share with status 0" "status $? $(cat /tmp/share)"
+status=$?
+[ $status -eq 0 ] && ! grep -q lost /tmp/share
+verdict $? "lexican: Ctrl-C ends share with status 0, and no frame was lost" "status $status $(cat /tmp/share)"
 kill -TERM $server
 wait $server

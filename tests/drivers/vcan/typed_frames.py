@@ -2,16 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """typed_frames.py socketcan INTERFACE NODE-ID
 typed_frames.py socketcand HOST PORT NODE-ID
+typed_frames.py slcan URL NODE-ID
 
-Sends SDO frames to the demo node by python-can, and checks the answers. With socketcand, the bus is that of `lexican
-share`, where frames without a pause must arrive, too. Prints "ok NAME" or "not ok NAME: DETAIL" for each case.
+Sends SDO frames to the demo node by python-can, and checks the answers. With socketcand and slcan, the bus is that of
+`lexican share`, where frames without a pause must arrive, too. Prints "ok NAME" or "not ok NAME: DETAIL" for each case.
 """
 import sys
 import time
 
 import can
-import can.interfaces.socketcan  # otherwise loaded by their names
+import can.interfaces.slcan  # otherwise loaded by their names
+import can.interfaces.socketcan
 import can.interfaces.socketcand
+import serial.urlhandler.protocol_socket
 
 ANSWER_SECONDS = 10
 FLOOD = 1000
@@ -50,6 +53,8 @@ def main():
     kind, *place, node_id = sys.argv[1:]
     if kind == "socketcan":
         options = {"channel": place[0]}
+    elif kind == "slcan":
+        options = {"channel": place[0], "bitrate": 500000, "sleep_after_open": 0}
     else:
         options = {"channel": "can0", "host": place[0], "port": int(place[1])}
     bus = can.Bus(interface=kind, **options)
@@ -57,7 +62,7 @@ def main():
     for name, request, answer in EXCHANGES:
         bus.send(can.Message(arbitration_id=0x600 + int(node_id), is_extended_id=False, data=bytes.fromhex(request)))
         good &= report(f"lexican: python-can by {kind}: {name}", answer, receive(bus, 0x580 + int(node_id)))
-    if kind == "socketcand":
+    if kind != "socketcan":
         with can.Bus(interface=kind, **options) as other:
             got = echoes(bus, other)
         same = got == list(range(FLOOD))

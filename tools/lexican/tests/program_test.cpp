@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program lexican from outside, on a hub with simulated devices (device.cpp): standard output, standard error
 // output and exit status.
+#include <arpa/inet.h>
 #include <doctest/doctest.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -924,9 +927,24 @@ TEST_CASE("lexican scan: an interruption ends it") {
   check(scan.finish(), 130, "", "lexican: interrupted\n");
 }
 
+/// Returns a TCP port that was free.
+std::uint16_t free_port() {
+  const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  socklen_t size = sizeof address;
+  REQUIRE(bind(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0);
+  REQUIRE(getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) == 0);
+  close(fd);
+  return ntohs(address.sin_port);
+}
+
 TEST_CASE("lexican share: a bus as another hub, and as an slcan adapter") {
-  const Bench bench{5};
-  Process share(bench.line("share", {"--name", "shared", "--port", "0", "--pty", "--json"}), bench.environment());
+  Bench bench{5};
+  bench.add(12, "silent");
+  const std::string port = std::to_string(free_port());
+  Process share(bench.line("share", {"--name", "shared", "--port", "0", "--slcan-port", port, "--pty", "--json"}),
+                bench.environment());
   share.wait_for("}\n");
   CHECK(fault_of(share.out(), "share") == "");
   const Json ways = Json::parse(share.out());
@@ -934,6 +952,19 @@ TEST_CASE("lexican share: a bus as another hub, and as an slcan adapter") {
   const std::string name = "1008h:00 manufacturer device name = \"SD-400\" (string)\n";
   check(bench.run("read", {"5", "1008", "-i", "hub:shared"}), 0, name, "");
   check(bench.run("read", {"5", "1008", "-i", "slcan:" + ways["slcan"].get<std::string>() + "@500k"}), 0, name, "");
+  const std::string tcp = "slcan-tcp:127.0.0.1:" + port + "@500k";
+  CHECK(ways["slcan_tcp"] == "127.0.0.1:" + port);
+  for (unsigned n = 0; n < 20; ++n) {  // more than it serves at once: ended ones make room
+    check(bench.run("read", {"5", "1008", "-i", tcp}), 0, name, "");
+  }
+  Process mon(bench.line("mon", {"--all", "-i", tcp}), bench.environment());
+  mon.wait_for(" 12  heartbeat: pre-operational");
+  check(bench.run("read", {"5", "1008", "-i", tcp}), 0, name, "");
+  mon.wait_for("  5  read 1008h:00");
+  mon.send(SIGINT);
+  CHECK(mon.finish().status == 0);
+  check(bench.run("share", {"--name", "other", "--port", "0", "--slcan-port", port}), 2, "",
+        "lexican: the server cannot use port " + port + " of 127.0.0.1: Address already in use\n");
   check(bench.run("share", {"--name", "shared"}), 2, "",
         "lexican: hub:shared is in use; choose another name by --name\n");
   check(bench.run("share", {"--name", "a b"}), 2, "",

@@ -836,3 +836,33 @@ TEST_CASE("slcan-pty: it has no further name, and may listen only") {
   CHECK(bus->note().find("slcan adapter at /dev/") == 0);
   CHECK_FALSE(bus->send(frame("123#")));
 }
+
+TEST_CASE("slcan server: answers the commands of a program that has connected, and ends with it") {
+  int ends[2]{};
+  REQUIRE(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends) == 0);
+  Fd peer;
+  peer = ends[0];
+  const std::unique_ptr<Bus> bus = serve_slcan(ends[1], 250000);
+  CHECK(bus->bit_rate() == 250000);
+  CHECK(bus->send(frame("123#")));  // discarded: the channel is closed
+  CHECK(write_text(peer, "C\rS6\rO\rt1230\rT12345678101\rQ\r" + std::string(300, 'x') + '\r', *bus) ==
+        Texts{"123#", "12345678#01"});
+  CHECK(read_text(peer, 9) == "\r\r\rz\rZ\r\a\a");
+  CHECK(bus->send(frame("124#R2")));
+  CHECK(read_text(peer, 6) == "r1242\r");
+  unsigned sent = 0;
+  while (sent < 100000 && bus->send(frame("12345678#1122334455667788"))) {
+    ++sent;
+  }
+  REQUIRE(sent < 100000);
+  CHECK((bus->wanted().events & POLLOUT) != 0);
+  while (!bus->receive() && (bus->wanted().events & POLLOUT) != 0) {
+    CHECK(!read_text(peer, 1).empty());
+  }
+  CHECK_FALSE(is_ready(bus->wanted(), 0));  // poll() must not report a frame that its sender has given up
+  peer.reset();
+  CHECK(!bus->receive());
+  CHECK(bus->wanted().fd == -1);
+  CHECK(bus->fault() == "slcan program" + std::string(gone));
+  CHECK(!bus->restore());
+}

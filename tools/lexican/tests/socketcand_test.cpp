@@ -502,14 +502,14 @@ TEST_CASE("socketcand server: a client whose answers wait is not read, and one t
 TEST_CASE("socketcand server: further clients wait until one of the 16 has left") {
   Server server;
   std::vector<std::unique_ptr<Peer>> peers;
-  for (std::size_t n = 0; n < SocketcandServer::most_clients; ++n) {
+  for (std::size_t n = 0; n < Listener::most_clients; ++n) {
     peers.push_back(server.connect());
   }
   CHECK(server.server.wanted().front().fd == -1);
-  CHECK(server.server.clients() == SocketcandServer::most_clients);
+  CHECK(server.server.clients() == Listener::most_clients);
   peers.pop_back();
   const std::unique_ptr<Peer> another = server.connect();
-  CHECK(server.server.clients() == SocketcandServer::most_clients);
+  CHECK(server.server.clients() == Listener::most_clients);
 }
 
 TEST_CASE("socketcand server: addresses and ports that it cannot use are named") {

@@ -71,4 +71,8 @@ std::unique_ptr<Bus> open_slcan_tcp(const std::string& name, const BusOptions& o
 /// \retval null  \a why says why
 std::unique_ptr<Bus> open_slcan_pty(const std::string& name, const BusOptions& options, std::string& why);
 
+/// Serves a program that has connected to a socket, as slcan-pty serves the one that opens it. Owns \a client, a
+/// descriptor that does not block. The bus is lost with the connection.
+std::unique_ptr<Bus> serve_slcan(int client, std::uint32_t bit_rate);
+
 }  // namespace lexican::host_bus

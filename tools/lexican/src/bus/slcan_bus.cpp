@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buses that use the slcan protocol: a serial adapter, an adapter behind TCP, and a pseudo-terminal that another
-// program opens as its adapter. The driver CO_SLCAN decodes and encodes the frames.
+// Buses that use the slcan protocol: a serial adapter, an adapter behind TCP, and a pseudo-terminal or a connection
+// that another program uses as its adapter. The driver CO_SLCAN decodes and encodes the frames.
 #include "co_slcan.h"
 
 #include <fcntl.h>
@@ -39,6 +39,7 @@ constexpr std::size_t shortest_line = 6;      // "t0000" and CR
 constexpr std::size_t read_size = 256;        // bytes that are read at once
 constexpr std::size_t most_frames = 64;       // that the driver stores; more than are read at once
 constexpr unsigned reads_in_turn = 64;        // of one call of receive(), so that invalid lines cannot keep it busy
+constexpr std::size_t most_waiting = 65536;   // bytes that a program that is served has not read
 constexpr std::size_t most_text = 1024;       // to be sent, above which no further commands are read
 static_assert(read_size / shortest_line < most_frames);
 
@@ -176,6 +177,9 @@ class SlcanBus : public Bus {
       return true;  // an error frame is not a line
     }
     flush();
+    if (text_.size() < space()) {
+      move_text();
+    }
     is_refused_ = SlcanDriver.Send(&can_, &frame) == 0;
     flush();
     return !is_refused_ && fd_ >= 0;
@@ -191,6 +195,8 @@ class SlcanBus : public Bus {
  protected:
   /// Returns false while frames are not sent but discarded.
   virtual bool carries() const { return true; }
+  /// Returns how many bytes of frames may wait beyond those that the driver stores.
+  virtual std::size_t space() const { return 0; }
   /// Returns true if the other end is open.
   virtual bool has_other_end() const { return true; }
   /// Processes bytes that were read.
@@ -556,99 +562,19 @@ class TcpBus : public AdapterBus {
   Clock::time_point deadline_;
 };
 
-/// A pseudo-terminal that another program opens as its adapter: the bus answers its commands. A hang-up is the end of
-/// this program, not of the bus.
-class PtyBus : public SlcanBus {
+/// The adapter of another program, whose commands it answers.
+class AnsweringBus : public SlcanBus {
  public:
-  explicit PtyBus(std::uint32_t bit_rate) : SlcanBus("slcan-pty", bit_rate) {}
-  ~PtyBus() override {
-    if (opened_ >= 0) {
-      close(opened_);
-    }
-  }
-  PtyBus(const PtyBus&) = delete;
-  PtyBus& operator=(const PtyBus&) = delete;
+  using SlcanBus::SlcanBus;
 
-  /// While no other program has opened the pseudo-terminal, poll() would report a hang-up at once. inotify reports when
-  /// a program opens it.
-  pollfd wanted() override {
-    pollfd end{fd_, POLLIN, 0};
-    const bool is_idle = poll(&end, 1, 0) > 0 && (end.revents & (POLLHUP | POLLIN)) == POLLHUP;
-    const bool is_repeated = (SlcanBus::wanted().events & POLLOUT) != 0;  // a frame that was refused
-    return fd_ >= 0 && is_idle && !is_repeated ? pollfd{opened_, POLLIN, 0} : SlcanBus::wanted();
-  }
-
-  std::optional<Entry> receive() override {
-    std::array<char, 1024> events{};
-    while (fd_ >= 0 && ::read(opened_, events.data(), events.size()) > 0) {
-    }
-    return SlcanBus::receive();
-  }
-
-  bool restore() override {
-    if (fd_ >= 0) {
-      return true;
-    }
-    const int fd = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-    begin(fd);
-    if (fd < 0 || !create_other_end()) {
-      lose(std::strerror(errno));
-      return false;
-    }
-    end_channel();
-    return true;
-  }
-
-  std::string note() const override { return path_.empty() ? "" : "slcan adapter at " + path_; }
-
- private:
-  enum class Channel : std::uint8_t { closed, listening, open };
-
-  /// Creates the device. It transfers bytes unchanged, and reports a hang-up until another program opens it.
-  /// \retval false  errno says why
-  bool create_other_end() {
-    char name[64] = "";
-    if (grantpt(fd_) != 0 || unlockpt(fd_) != 0 || ptsname_r(fd_, name, sizeof name) != 0) {
-      return false;
-    }
-    const int other_end = open_serial(name);
-    if (other_end < 0) {
-      return false;
-    }
-    close(other_end);
-    path_ = name;
-    opened_ = opened_ >= 0 ? opened_ : inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-    return opened_ >= 0 && inotify_add_watch(opened_, name, IN_OPEN) >= 0;
-  }
-
-  bool carries() const override { return channel_ != Channel::closed; }
-
-  bool has_other_end() const override {
-    pollfd end{fd_, 0, 0};
-    return poll(&end, 1, 0) <= 0 || (end.revents & POLLHUP) == 0;
-  }
-
-  void on_end(const std::string& why) override {
-    if (has_other_end()) {
-      lose(why);
-    } else {
-      end_channel();
-    }
-  }
-
-  /// Discards the rest of the text, also that which the program has not read.
-  void end_channel() {
+ protected:
+  /// Begins with a closed channel.
+  void close_channel() {
     channel_ = Channel::closed;
     line_.clear();
-    discard_text();
-    if (is_used_) {  // else inotify would report this opening again and again
-      close(open_serial(path_));
-      is_used_ = false;
-    }
   }
 
   void process(std::string_view bytes) override {
-    is_used_ = true;
     for (const char byte : bytes) {
       if (byte == '\r') {
         append(answer());
@@ -658,6 +584,11 @@ class PtyBus : public SlcanBus {
       }
     }
   }
+
+ private:
+  enum class Channel : std::uint8_t { closed, listening, open };
+
+  bool carries() const override { return channel_ != Channel::closed; }
 
   /// Executes the line that was received. Returns the adapter's answer to it.
   const char* answer() {
@@ -711,11 +642,120 @@ class PtyBus : public SlcanBus {
     return true;
   }
 
+  Channel channel_ = Channel::closed;
+  std::string line_;  // being received, cut where it is too long for a frame
+};
+
+/// A pseudo-terminal that another program opens as its adapter. A hang-up is the end of this program, not of the bus.
+class PtyBus : public AnsweringBus {
+ public:
+  explicit PtyBus(std::uint32_t bit_rate) : AnsweringBus("slcan-pty", bit_rate) {}
+  ~PtyBus() override {
+    if (opened_ >= 0) {
+      close(opened_);
+    }
+  }
+  PtyBus(const PtyBus&) = delete;
+  PtyBus& operator=(const PtyBus&) = delete;
+
+  /// While no other program has opened the pseudo-terminal, poll() would report a hang-up at once. inotify reports when
+  /// a program opens it.
+  pollfd wanted() override {
+    pollfd end{fd_, POLLIN, 0};
+    const bool is_idle = poll(&end, 1, 0) > 0 && (end.revents & (POLLHUP | POLLIN)) == POLLHUP;
+    const bool is_repeated = (SlcanBus::wanted().events & POLLOUT) != 0;  // a frame that was refused
+    return fd_ >= 0 && is_idle && !is_repeated ? pollfd{opened_, POLLIN, 0} : SlcanBus::wanted();
+  }
+
+  std::optional<Entry> receive() override {
+    std::array<char, 1024> events{};
+    while (fd_ >= 0 && ::read(opened_, events.data(), events.size()) > 0) {
+    }
+    return SlcanBus::receive();
+  }
+
+  bool restore() override {
+    if (fd_ >= 0) {
+      return true;
+    }
+    const int fd = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+    begin(fd);
+    if (fd < 0 || !create_other_end()) {
+      lose(std::strerror(errno));
+      return false;
+    }
+    end_channel();
+    return true;
+  }
+
+  std::string note() const override { return path_.empty() ? "" : "slcan adapter at " + path_; }
+
+ private:
+  /// Creates the device. It transfers bytes unchanged, and reports a hang-up until another program opens it.
+  /// \retval false  errno says why
+  bool create_other_end() {
+    char name[64] = "";
+    if (grantpt(fd_) != 0 || unlockpt(fd_) != 0 || ptsname_r(fd_, name, sizeof name) != 0) {
+      return false;
+    }
+    const int other_end = open_serial(name);
+    if (other_end < 0) {
+      return false;
+    }
+    close(other_end);
+    path_ = name;
+    opened_ = opened_ >= 0 ? opened_ : inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    return opened_ >= 0 && inotify_add_watch(opened_, name, IN_OPEN) >= 0;
+  }
+
+  bool has_other_end() const override {
+    pollfd end{fd_, 0, 0};
+    return poll(&end, 1, 0) <= 0 || (end.revents & POLLHUP) == 0;
+  }
+
+  void on_end(const std::string& why) override {
+    if (has_other_end()) {
+      lose(why);
+    } else {
+      end_channel();
+    }
+  }
+
+  /// Discards the rest of the text, also that which the program has not read.
+  void end_channel() {
+    close_channel();
+    discard_text();
+    if (is_used_) {  // else inotify would report this opening again and again
+      close(open_serial(path_));
+      is_used_ = false;
+    }
+  }
+
+  void process(std::string_view bytes) override {
+    is_used_ = true;
+    AnsweringBus::process(bytes);
+  }
+
   std::string path_;
   int opened_ = -1;       // inotify: readable when a program opens the pseudo-terminal
   bool is_used_ = false;  // by another program, since end_channel()
-  Channel channel_ = Channel::closed;
-  std::string line_;  // being received, cut where it is too long for a frame
+};
+
+/// A program that uses a server of slcan lines as its adapter. Its end is that of the bus.
+class ClientBus : public AnsweringBus {
+ public:
+  ClientBus(int client, std::uint32_t bit_rate) : AnsweringBus("slcan program", bit_rate) { begin(client); }
+
+  /// A frame that was refused is not sent again: poll() would report space for it until the next frame.
+  pollfd wanted() override {
+    const pollfd wanted = SlcanBus::wanted();
+    return {wanted.fd, static_cast<short>((wanted.events & POLLIN) | (has_text() ? POLLOUT : 0)), 0};
+  }
+
+  bool restore() override { return fd_ >= 0; }
+
+ private:
+  std::size_t space() const override { return most_waiting; }
 };
 
 /// Returns a bus that is open.
@@ -778,6 +818,10 @@ std::unique_ptr<Bus> open_slcan_tcp(const std::string& name, const BusOptions& o
   bus->wait_until_open();
   bus->await_answers();
   return if_open(std::move(bus), why);
+}
+
+std::unique_ptr<Bus> serve_slcan(int client, std::uint32_t bit_rate) {
+  return std::make_unique<ClientBus>(client, bit_rate);
 }
 
 std::unique_ptr<Bus> open_slcan_pty(const std::string& name, const BusOptions& options, std::string& why) {

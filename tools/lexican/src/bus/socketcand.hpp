@@ -24,6 +24,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/listener.hpp"
 #include "bus/open.hpp"
 
 namespace lexican::host_bus {
@@ -75,14 +76,9 @@ class SocketcandInput {
   std::size_t used_ = 0;
 };
 
-/// Prepares a connection: short delays, and less than 100 KiB that the socket queues, so that the sender of frames
-/// notices early that they are not read.
-void prepare_socketcand(int fd);
-
 /// Server for one bus. Context: one thread.
 class SocketcandServer {
  public:
-  static constexpr std::size_t most_clients = 16;
   static constexpr std::size_t most_waiting = 65536;  ///< bytes that a client has not read yet, before frames are lost
   static constexpr std::size_t most_frames = 256;     ///< for receive(), before the server stops reading of clients
 
@@ -92,11 +88,11 @@ class SocketcandServer {
   SocketcandServer(const SocketcandServer&) = delete;
   SocketcandServer& operator=(const SocketcandServer&) = delete;
 
-  /// Creates the socket. \a address: of an interface of this machine, in numbers; empty: 127.0.0.1. \a port: 0 for any
-  /// that is free.
-  /// \retval false  \a why says why
-  bool open(const std::string& address, std::uint16_t port, std::string& why);
-  std::uint16_t port() const { return port_; }
+  /// Creates the socket, as Listener::open() does.
+  bool open(const std::string& address, std::uint16_t port, std::string& why) {
+    return listener_.open(address, port, why);
+  }
+  std::uint16_t port() const { return listener_.port(); }
   /// Returns the descriptors and events for poll().
   std::vector<pollfd> wanted() const;
   /// Accepts clients, receives their frames, also for the other clients, and transmits. \a now: time of the frames.
@@ -128,8 +124,7 @@ class SocketcandServer {
   static bool write_to(Client& client);
 
   std::string bus_;
-  std::uint16_t port_ = 0;
-  int listener_ = -1;
+  Listener listener_;
   std::vector<Client> clients_;
   std::deque<CO_IF_FRM> frames_;
   std::uint64_t lost_ = 0;

@@ -147,7 +147,7 @@ class SocketcandBus : public Bus {
                     : ETIMEDOUT;
       }
       if (error == 0) {
-        prepare_socketcand(fd_);
+        prepare_connection(fd_);
       } else {
         disconnect(error == ETIMEDOUT ? no_answer : std::strerror(error));
       }

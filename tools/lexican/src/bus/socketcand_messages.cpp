@@ -152,13 +152,6 @@ std::string to_socketcand_send(const CO_IF_FRM& frame) {
          data_text(frame, " ") + " >";
 }
 
-void prepare_socketcand(int fd) {
-  const int without_delay = 1;
-  const int queued = 32768;  // the kernel doubles it
-  setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &without_delay, sizeof without_delay);
-  setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &queued, sizeof queued);
-}
-
 std::size_t SocketcandInput::append(std::string_view bytes) {
   bytes_.erase(0, used_);
   used_ = 0;

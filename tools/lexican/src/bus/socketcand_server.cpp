@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <netdb.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 #include "bus/socketcand.hpp"
 
@@ -16,41 +13,10 @@ SocketcandServer::~SocketcandServer() {
   for (const Client& client : clients_) {
     close(client.fd);
   }
-  if (listener_ >= 0) {
-    close(listener_);
-  }
-}
-
-bool SocketcandServer::open(const std::string& address, std::uint16_t port, std::string& why) {
-  const std::string host = address.empty() ? "127.0.0.1" : address;
-  addrinfo form{};
-  form.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;
-  form.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &form, &found);
-  if (error != 0) {
-    why = "the server cannot use the address " + host + ": " + gai_strerror(error);
-    return false;
-  }
-  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, freeaddrinfo);
-  listener_ = socket(found->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  const int reuse = 1;
-  sockaddr_storage bound{};
-  socklen_t size = sizeof bound;
-  if (listener_ < 0 || setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &reuse, sizeof reuse) != 0 ||
-      bind(listener_, found->ai_addr, found->ai_addrlen) != 0 ||
-      listen(listener_, static_cast<int>(most_clients)) != 0 ||
-      getsockname(listener_, reinterpret_cast<sockaddr*>(&bound), &size) != 0) {
-    why = "the server cannot use port " + std::to_string(port) + " of " + host + ": " + std::strerror(errno);
-    return false;
-  }
-  port_ = ntohs(bound.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(bound).sin6_port
-                                            : reinterpret_cast<const sockaddr_in&>(bound).sin_port);
-  return true;
 }
 
 std::vector<pollfd> SocketcandServer::wanted() const {
-  std::vector<pollfd> all{{clients_.size() < most_clients ? listener_ : -1, POLLIN, 0}};
+  std::vector<pollfd> all{listener_.wanted(clients_.size())};
   for (const Client& client : clients_) {
     const int events = (is_read(client) ? POLLIN : 0) | (client.waiting.empty() ? 0 : POLLOUT);
     all.push_back({events == 0 ? -1 : client.fd, static_cast<short>(events), 0});
@@ -89,12 +55,7 @@ std::optional<CO_IF_FRM> SocketcandServer::receive() {
 void SocketcandServer::send(const Entry& entry) { forward(nullptr, entry); }
 
 void SocketcandServer::accept_clients() {
-  while (clients_.size() < most_clients) {
-    const int fd = accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (fd < 0) {
-      return;
-    }
-    prepare_socketcand(fd);
+  for (int fd = 0; (fd = listener_.accept(clients_.size())) >= 0;) {
     clients_.emplace_back();
     clients_.back().fd = fd;
     clients_.back().waiting = "< hi >";

@@ -27,6 +27,7 @@ struct Options {
   std::string name;
   std::string address = "127.0.0.1";
   std::uint16_t port = 29536;
+  std::uint16_t slcan_port = 29537;
   bool has_pty = false;
 };
 
@@ -79,21 +80,25 @@ class Share {
     if (options.has_pty) {
       buses_.push_back(host_bus::open_bus("slcan-pty", {}, why));
     }
+    own_ = buses_.size();
     return std::all_of(buses_.begin(), buses_.end(), [](const auto& bus) { return bus != nullptr; }) &&
-           (options.port == 0 || socketcand_.open(options.address, options.port, why));
+           (options.port == 0 || socketcand_.open(options.address, options.port, why)) &&
+           (options.slcan_port == 0 || slcan_.open(options.address, options.slcan_port, why));
   }
 
   void print_ways(const Options& options, const std::string& name) const {
     const std::string server = options.port == 0 ? "" : fmt::format("{}:{}/can0", options.address, socketcand_.port());
+    const std::string slcan = options.slcan_port == 0 ? "" : fmt::format("{}:{}", options.address, slcan_.port());
     const std::string pty = options.has_pty ? buses_.back()->note() : "";
     if (options.common.is_json) {
       nlohmann::json json = {{"hub", name}};
       json.update(server.empty() ? nlohmann::json::object() : nlohmann::json{{"socketcand", server}});
+      json.update(slcan.empty() ? nlohmann::json::object() : nlohmann::json{{"slcan_tcp", slcan}});
       json.update(pty.empty() ? nlohmann::json::object() : nlohmann::json{{"slcan", pty.substr(pty.rfind(' ') + 1)}});
       print(json.dump() + '\n');
     } else {
       print("hub:" + name + (server.empty() ? "" : ", socketcand " + server + " (python-can, SavvyCAN)") +
-            (pty.empty() ? "" : ", " + pty) + "; Ctrl-C ends it\n");
+            (slcan.empty() ? "" : ", slcan-tcp:" + slcan) + (pty.empty() ? "" : ", " + pty) + "; Ctrl-C ends it\n");
     }
     std::fflush(stdout);
   }
@@ -103,6 +108,7 @@ class Share {
       wait(interruption);
       hub_.process(clock_now(CLOCK_REALTIME));
       socketcand_.process(clock_now(CLOCK_REALTIME));
+      exchange_slcan_clients();
       reopen();
       forward();
     }
@@ -115,12 +121,23 @@ class Share {
     std::vector<pollfd> wanted = hub_.wanted();
     const std::vector<pollfd> clients = socketcand_.wanted();
     wanted.insert(wanted.end(), clients.begin(), clients.end());
+    wanted.push_back(slcan_.wanted(buses_.size() - own_));
     wanted.push_back(adapter_->wanted());
     for (const auto& bus : buses_) {
       wanted.push_back(bus->wanted());
     }
     const timespec timeout{0, is_busy_ ? 1'000'000L : 200'000'000L};
     ppoll(wanted.data(), wanted.size(), &timeout, &interruption.while_waiting());
+  }
+
+  /// Removes slcan clients that have ended, and accepts new ones.
+  void exchange_slcan_clients() {
+    const auto first = buses_.begin() + static_cast<std::ptrdiff_t>(own_);
+    const auto ended = std::stable_partition(first, buses_.end(), [](const auto& bus) { return bus->fault().empty(); });
+    buses_.erase(ended, buses_.end());
+    for (int fd = 0; (fd = slcan_.accept(buses_.size() - own_)) >= 0;) {
+      buses_.push_back(host_bus::serve_slcan(fd, adapter_->bit_rate()));
+    }
   }
 
   void reopen() {
@@ -192,16 +209,20 @@ class Share {
 
   void to_programs(const CO_IF_FRM& frame, const Bus* from) {
     for (const auto& bus : buses_) {
-      if (bus.get() != from && !bus->send(frame)) {
-        ++lost_;
+      if (bus.get() == from || bus->send(frame)) {
+        continue;
       }
+      hub_.process(clock_now(CLOCK_REALTIME));  // makes room in the connection to it
+      lost_ += bus->send(frame) ? 0U : 1U;
     }
   }
 
   std::unique_ptr<Bus> adapter_;
   host_bus::HubServer hub_;
   host_bus::SocketcandServer socketcand_{"can0"};
-  std::vector<std::unique_ptr<Bus>> buses_;  ///< the hub, and the pseudo-terminal
+  host_bus::Listener slcan_;
+  std::vector<std::unique_ptr<Bus>> buses_;  ///< the hub, the pseudo-terminal, and then the slcan clients
+  std::size_t own_ = 0;                      ///< of buses_: the first ones, which are no clients
   std::optional<CO_IF_FRM> waiting_;         ///< frame that the adapter has refused
   bool is_busy_ = false;
   bool is_lost_ = false;
@@ -241,12 +262,13 @@ Verb add_share(CommandLine& line) {
   add_bus_options(arguments, options->common);
   arguments.add_option("--name", options->name, "Name of the hub; default: that of the adapter");
   arguments.add_option("--port", options->port, "TCP port of the socketcand server, 0: none; default: 29536");
-  arguments.add_option("--address", options->address, "Address of the socketcand server; default: 127.0.0.1");
+  arguments.add_option("--slcan-port", options->slcan_port, "TCP port of the slcan server, 0: none; default: 29537");
+  arguments.add_option("--address", options->address, "Address of both servers; default: 127.0.0.1");
   arguments.add_flag("--pty", options->has_pty, "Also a pseudo-terminal, as an slcan adapter for one program");
   arguments.end_help(
       "Examples:\n"
       "  lexican share -i slcan:/dev/ttyACM0@500k\n"
-      "  lexican share -i can0 --name bench --port 0 --pty");
+      "  lexican share -i can0 --name bench --port 0 --slcan-port 0 --pty");
   return {arguments, [options] { return run(*options); }};
 }
 
