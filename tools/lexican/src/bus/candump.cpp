@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view drop_count = "DROPCOUNT:";
 
 /// \retval false  \a text is not an identifier in 3 or 8 hex digits
-bool parse_identifier(std::string_view text, std::uint32_t& identifier) {
+bool parse_padded_identifier(std::string_view text, std::uint32_t& identifier) {
   if (!parse_number(text, identifier, 16)) {
     return false;
   }
@@ -159,7 +159,7 @@ Parsed parse_frame(std::string_view text, CO_IF_FRM& frame) {
   if (mark == 5 && text.find(':') != std::string_view::npos) {
     return Parsed::other_frame;  // CAN XL
   }
-  if ((mark != 3 && mark != 8) || !parse_identifier(text.substr(0, mark), frame.Identifier)) {
+  if ((mark != 3 && mark != 8) || !parse_padded_identifier(text.substr(0, mark), frame.Identifier)) {
     return Parsed::malformed;
   }
   text.remove_prefix(mark + 1);

@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "bus/clock.hpp"
 #include "bus/hub_messages.hpp"
 #include "bus/open.hpp"
 
@@ -29,12 +30,6 @@ constexpr std::uint32_t lowest_rate = 10'000;  // bit/s, of a paced hub
 constexpr std::uint32_t highest_rate = 1'000'000;
 constexpr int greeting_timeout = 1000;  // ms
 constexpr Micros linger = 2'000'000;    // that a hub without clients waits for the next one
-
-Micros clock_now(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return static_cast<Micros>(now.tv_sec) * 1'000'000 + static_cast<Micros>(now.tv_nsec) / 1000;
-}
 
 /// \retval -1  errno says why
 int connect_to(const sockaddr_un& address) {

@@ -17,9 +17,7 @@ namespace lexican {
 
 namespace {
 
-constexpr Micros flush_time = 100 * millisecond;  // time to transmit them
-constexpr std::uint8_t no_sdo = 1;                // server of an unused SDO client
-constexpr std::uint8_t own_id = 127;              // of a master without a node-ID of the command line
+constexpr std::uint8_t own_id = 127;  // of a master without a node-ID of the command line
 constexpr std::uint8_t waiting = CO_LSSM_WAITING;
 
 std::string address_text(const LssAddress& address) {

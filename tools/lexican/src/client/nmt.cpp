@@ -12,9 +12,6 @@ namespace lexican {
 
 namespace {
 
-constexpr Micros flush_time = 100 * millisecond;  // time to transmit them
-constexpr std::uint8_t no_sdo = 1;                // server of an unused SDO client
-
 std::string fault_of(CO_ERR error) {
   switch (error) {
     case CO_ERR_NONE: return {};

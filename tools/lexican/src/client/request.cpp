@@ -13,9 +13,6 @@
 namespace lexican {
 namespace {
 
-// Limit of the time in which frames that are still queued, such as an abort, are transmitted before the program ends.
-constexpr Micros flush_time = 100 * millisecond;
-
 Transfer transfer(const Request& request, SdoClient& sdo, const SdoClient::Options& options) {
   return request.write ? sdo.download(request.index, request.sub, request.data, options)
                        : sdo.upload(request.index, request.sub, options);

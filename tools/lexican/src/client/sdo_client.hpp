@@ -15,6 +15,8 @@
 
 namespace lexican {
 
+constexpr std::uint8_t no_sdo = 1;  ///< server of an SDO client that is not used
+
 /// Dictionary of a node with an SDO client and the mandatory objects. [301:7.5.1, 7.5.2.34]
 class ClientDictionary {
  public:
@@ -91,8 +93,7 @@ class DeviceClient {
         sdo_(node_, loop_) {
     CONodeStart(&node_.stack());
   }
-  /// Sends what is queued, such as an abort, for at most 100 ms.
-  ~DeviceClient() { loop_.flush(100 * millisecond); }
+  ~DeviceClient() { loop_.flush(flush_time); }
   DeviceClient(const DeviceClient&) = delete;
   DeviceClient& operator=(const DeviceClient&) = delete;
 

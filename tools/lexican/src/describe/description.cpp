@@ -77,7 +77,7 @@ constexpr Standard standard[] = {
     {0x1F80, 0x1F80, "NMT startup", "x32"},
 };
 
-constexpr std::string_view identity[] = {"", "vendor-ID", "product code", "revision number", "serial number"};
+constexpr std::string_view identity_names[] = {"", "vendor-ID", "product code", "revision number", "serial number"};
 
 std::string shown_bytes(const Bytes& bytes) {
   const std::size_t shown = std::min(bytes.size(), most_shown);
@@ -184,8 +184,8 @@ std::string_view name_of_value(const codict::Device& device, const codict::Entry
 }  // namespace
 
 std::string_view standard_name(std::uint16_t index, std::uint8_t sub_index) {
-  if (index == 0x1018 && sub_index > 0 && sub_index < std::size(identity)) {
-    return identity[sub_index];
+  if (index == 0x1018 && sub_index > 0 && sub_index < std::size(identity_names)) {
+    return identity_names[sub_index];
   }
   const Standard* const row = standard_of(index);
   return row != nullptr ? row->name : std::string_view();

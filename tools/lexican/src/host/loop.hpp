@@ -11,6 +11,9 @@
 
 namespace lexican {
 
+/// Limit of the time in which frames that are still queued, such as an abort, are transmitted before the program ends.
+constexpr Micros flush_time = 100 * millisecond;
+
 class Loop {
  public:
   /// The host and the nodes must outlive the loop.

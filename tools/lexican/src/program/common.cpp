@@ -171,6 +171,16 @@ std::uint8_t node_of(std::string_view text) {
   return error == std::errc() && next == end && node <= 127 ? node : std::uint8_t{0};
 }
 
+std::string state_text(std::uint8_t state) {
+  switch (state) {
+    case 0x00: return "boot-up";
+    case 0x04: return "stopped";
+    case 0x05: return "operational";
+    case 0x7F: return "pre-operational";
+    default: return fmt::format("unknown state {:02X}h", state);
+  }
+}
+
 bool is_confirmed(const std::string& question) {
   fmt::print(stderr, "{} [y/N] ", question);
   char answer[16] = "";

@@ -61,7 +61,7 @@ int show_verbs(const CommandLine& line) {
   return ok;
 }
 
-int run(int number, char** arguments) {
+int run_program(int number, char** arguments) {
   CommandLine line("lexican", about, "lexican " LEXICAN_VERSION, footer);
   const std::vector<Verb> verbs = {add_scan(line), add_mon(line),   add_read(line),       add_write(line),
                                    add_nmt(line),  add_share(line), add_completion(line), add_man(line)};
@@ -86,7 +86,7 @@ int run(int number, char** arguments) {
 
 int main(int number, char** arguments) {
   try {
-    const int status = run(number, arguments);
+    const int status = run_program(number, arguments);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
       std::perror("lexican: standard output");
       return usage;

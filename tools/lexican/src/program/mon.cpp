@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 
+#include "bus/clock.hpp"
 #include "describe/monitor.hpp"
 #include "program/verb.hpp"
 
@@ -25,10 +26,9 @@ using describe::Service;
 using host_bus::Entry;
 using host_bus::Micros;
 
-constexpr Micros reopen_interval = 500'000;
 constexpr std::size_t most_identifiers = 20;  // in the statistics
 
-struct Options {
+struct MonOptions {
   Common common;
   std::string log;  ///< positional: a log instead of a bus
   std::vector<std::string> nodes;
@@ -47,7 +47,7 @@ bool contains_ignoring_case(std::string_view text, std::string_view part) {
 /// Prints events, as text or as JSON.
 class Printer {
  public:
-  explicit Printer(const Options& options) : options_(options), has_colour_(program::has_colour()) {
+  explicit Printer(const MonOptions& options) : options_(options), has_colour_(program::has_colour()) {
     for (const std::string& node : options.nodes) {
       nodes_.insert(node_of(node));
     }
@@ -123,7 +123,7 @@ class Printer {
     print(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
   }
 
-  const Options& options_;
+  const MonOptions& options_;
   bool has_colour_;
   std::set<unsigned> nodes_;
   std::set<Service> services_;
@@ -180,7 +180,7 @@ std::string identifier_text(std::uint32_t identifier) {
 
 class Mon {
  public:
-  Mon(const Options& options, const describe::Network& network)
+  Mon(const MonOptions& options, const describe::Network& network)
       : options_(options), printer_(options), monitor_(network, [this](const Event& event) { printer_.show(event); }) {}
 
   int run(host_bus::Bus& bus) {
@@ -210,7 +210,7 @@ class Mon {
       print_message(bus.fault() + "; waiting for it");
       is_lost_ = true;
     }
-    const Micros now = monotonic();
+    const Micros now = host_bus::clock_now(CLOCK_MONOTONIC);
     if (now - last < reopen_interval) {
       return;
     }
@@ -219,18 +219,6 @@ class Mon {
       print_message("the bus is back");
       is_lost_ = false;
     }
-  }
-
-  static Micros monotonic() {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return static_cast<Micros>(now.tv_sec) * 1'000'000 + static_cast<Micros>(now.tv_nsec) / 1000;
-  }
-
-  static Micros wall() {
-    timespec now{};
-    clock_gettime(CLOCK_REALTIME, &now);
-    return static_cast<Micros>(now.tv_sec) * 1'000'000 + static_cast<Micros>(now.tv_nsec) / 1000;
   }
 
   void receive(host_bus::Bus& bus) {
@@ -243,7 +231,7 @@ class Mon {
       }
     }
     if (bus.log() == nullptr) {
-      monitor_.expire(wall());
+      monitor_.expire(host_bus::clock_now(CLOCK_REALTIME));
     }
   }
 
@@ -317,14 +305,14 @@ class Mon {
     print(json.dump() + '\n');
   }
 
-  const Options& options_;
+  const MonOptions& options_;
   Printer printer_;
   describe::Monitor monitor_;
   Recorder recorder_;
   bool is_lost_ = false;
 };
 
-int run(Options& options) {
+int run_mon(MonOptions& options) {
   std::error_code unused;
   if (!options.record.empty() && std::filesystem::equivalent(options.log, options.record, unused)) {
     print_message(options.record + " is read and cannot be the record, too");
@@ -359,7 +347,7 @@ int run(Options& options) {
 }  // namespace
 
 Verb add_mon(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MonOptions>();
   Arguments arguments = line.add_command("mon", "Show in words what happens on a bus, or in a log");
   arguments.add_option("file", options->log,
                        "Log of candump, pcapng, pcap or ASC instead of a bus, - for standard input");
@@ -384,7 +372,7 @@ Verb add_mon(CommandLine& line) {
       "  lexican mon -i can0 --service sdo,emcy --node 5\n"
       "  lexican mon -i can0 --log fault.pcapng\n"
       "  lexican mon fault.log --eds descriptions");
-  return {arguments, [options] { return run(*options); }};
+  return {arguments, [options] { return run_mon(*options); }};
 }
 
 }  // namespace lexican::program

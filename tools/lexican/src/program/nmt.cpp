@@ -23,21 +23,11 @@ constexpr Command commands[] = {
     {"reset-comm", CO_NMT_COMMAND_RESET_COM, 0x00},
 };
 
-struct Options {
+struct NmtOptions {
   Common common;
   std::string command;
   std::string node;
 };
-
-std::string state_text(std::uint8_t state) {
-  switch (state) {
-    case 0x00: return "boot-up";
-    case 0x04: return "stopped";
-    case 0x05: return "operational";
-    case 0x7F: return "pre-operational";
-    default: return fmt::format("unknown state {:02X}h", state);
-  }
-}
 
 /// Sends the command as soon as the bus accepts it.
 /// \retval false  the bus has accepted nothing for \a timeout
@@ -148,7 +138,7 @@ int report_state(Session& session, std::uint8_t node, const Command& command, co
   return ok;
 }
 
-int run(const Options& options) {
+int run_nmt(const NmtOptions& options) {
   const bool is_all = options.node == "all";
   const std::uint8_t node = is_all ? std::uint8_t{0} : node_of(options.node);
   if (!is_all && node == 0) {
@@ -206,7 +196,7 @@ int run(const Options& options) {
 }  // namespace
 
 Verb add_nmt(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<NmtOptions>();
   Arguments arguments = line.add_command("nmt", "Change the NMT state of a device, or of all");
   std::vector<std::string> words;
   for (const Command& command : commands) {
@@ -220,7 +210,7 @@ Verb add_nmt(CommandLine& line) {
       "Examples:\n"
       "  lexican nmt start 5 -i can0\n"
       "  lexican nmt reset all --yes -i can0");
-  return {arguments, [options] { return run(*options); }};
+  return {arguments, [options] { return run_nmt(*options); }};
 }
 
 }  // namespace lexican::program

@@ -15,7 +15,7 @@
 namespace lexican::program {
 namespace {
 
-struct Options : TransferOptions {
+struct ReadOptions : TransferOptions {
   std::string output;  ///< -o
   std::uint32_t most = 16 * 1024 * 1024;
 };
@@ -65,7 +65,7 @@ int write_output(const std::string& path, const Bytes& data) {
   return ok;
 }
 
-int run(const Options& options) {
+int run_read(const ReadOptions& options) {
   Target target;
   if (!prepare(options, target)) {
     return usage;
@@ -117,7 +117,7 @@ int run(const Options& options) {
 }  // namespace
 
 Verb add_read(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReadOptions>();
   Arguments arguments = line.add_command("read", "Read an object of a device");
   add_transfer_options(arguments, *options);
   arguments.add_option("-o,--output", options->output, "Write the bytes to a file, - for standard output");
@@ -129,7 +129,7 @@ Verb add_read(CommandLine& line) {
       "  lexican read 5 1018:4 -i can0\n"
       "  lexican read 5 \"velocity actual value\" -i can0 --eds drive.eds\n"
       "  lexican read 5 1021 -o drive.eds -i can0");
-  return {arguments, [options] { return run(*options); }};
+  return {arguments, [options] { return run_read(*options); }};
 }
 
 }  // namespace lexican::program

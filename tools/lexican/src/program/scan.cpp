@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t upload_timeout = 1000;  // ms, for each answer
 
-struct Options {
+struct ScanOptions {
   Common common;
 };
 
@@ -37,19 +37,6 @@ std::string profile_text(const Found& found) {
     case 418: return "418 battery";
     case 419: return "419 charger";
     default: return std::to_string(profile);
-  }
-}
-
-std::string state_text(const std::optional<std::uint8_t>& state) {
-  if (!state) {
-    return "not seen";
-  }
-  switch (*state) {
-    case 0x00: return "boot-up";
-    case 0x04: return "stopped";
-    case 0x05: return "operational";
-    case 0x7F: return "pre-operational";
-    default: return fmt::format("{:02X}h", *state);
   }
 }
 
@@ -103,7 +90,7 @@ void print_table(const Devices& found, const Files& files) {
                    : "  " + (file == files.end() ? "-" : file->second.path) +
                          (file != files.end() && file->second.is_uploaded ? " (uploaded from 1021h)" : "");
     print(fmt::format("{:>4}  {:<16} {:<15} {:<17}  {:<8}  {:<{}}{}\n", device.found.node,
-                      state_text(device.found.state), profile_text(device.found),
+                      device.found.state ? state_text(*device.found.state) : "not seen", profile_text(device.found),
                       number_text(device.vendor) + ':' + number_text(device.product), number_text(device.serial),
                       device.name, width, description));
   }
@@ -124,7 +111,7 @@ void print_json_device(const Device& device, const Files& files) {
     json["device_type"] = device.found.device_type;
   }
   if (device.found.state) {
-    json["state"] = state_text(device.found.state);
+    json["state"] = state_text(*device.found.state);
   }
   add("vendor", device.vendor);
   add("product", device.product);
@@ -172,7 +159,7 @@ int report_silence(const host_bus::Bus& bus, const HostLine& line) {
   return no_answer;
 }
 
-int run(const Options& options) {
+int run_scan(const ScanOptions& options) {
   int status = ok;
   const std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
   if (bus == nullptr) {
@@ -218,7 +205,7 @@ int run(const Options& options) {
 }  // namespace
 
 Verb add_scan(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ScanOptions>();
   Arguments arguments = line.add_command("scan", "Find the devices of a bus: state, profile, identity and name");
   add_bus_options(arguments, options->common);
   add_timeout_option(arguments, options->common, 80);
@@ -227,7 +214,7 @@ Verb add_scan(CommandLine& line) {
       "  lexican scan -i can0\n"
       "  lexican scan -i slcan:/dev/ttyACM0@500k\n"
       "  lexican scan -i hub:demo --json");
-  return {arguments, [options] { return run(*options); }};
+  return {arguments, [options] { return run_scan(*options); }};
 }
 
 }  // namespace lexican::program

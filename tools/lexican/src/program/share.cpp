@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bus/clock.hpp"
 #include "bus/hub.hpp"
 #include "bus/socketcand.hpp"
 #include "program/verb.hpp"
@@ -16,13 +17,13 @@ namespace lexican::program {
 namespace {
 
 using host_bus::Bus;
+using host_bus::clock_now;
 using host_bus::Entry;
 using host_bus::Micros;
 
-constexpr Micros reopen_interval = 500'000;
 constexpr unsigned frames_in_turn = 64;
 
-struct Options {
+struct ShareOptions {
   Common common;
   std::string name;
   std::string address = "127.0.0.1";
@@ -30,12 +31,6 @@ struct Options {
   std::uint16_t slcan_port = 29537;
   bool has_pty = false;
 };
-
-Micros clock_now(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return static_cast<Micros>(now.tv_sec) * 1'000'000 + static_cast<Micros>(now.tv_nsec) / 1000;
-}
 
 /// Returns the name of the hub for a bus: ttyACM0 of slcan:/dev/ttyACM0@500k.
 std::string hub_name_of(const std::string& bus) {
@@ -62,7 +57,7 @@ class Share {
   Share& operator=(const Share&) = delete;
 
   /// \retval false  \a why says why
-  bool open(const Options& options, const std::string& name, std::string& why) {
+  bool open(const ShareOptions& options, const std::string& name, std::string& why) {
     const std::string path = host_bus::hub_path(name, why);
     if (path.empty()) {
       return false;
@@ -86,7 +81,7 @@ class Share {
            (options.slcan_port == 0 || slcan_.open(options.address, options.slcan_port, why));
   }
 
-  void print_ways(const Options& options, const std::string& name) const {
+  void print_ways(const ShareOptions& options, const std::string& name) const {
     const std::string server = options.port == 0 ? "" : fmt::format("{}:{}/can0", options.address, socketcand_.port());
     const std::string slcan = options.slcan_port == 0 ? "" : fmt::format("{}:{}", options.address, slcan_.port());
     const std::string pty = options.has_pty ? buses_.back()->note() : "";
@@ -230,7 +225,7 @@ class Share {
   std::uint64_t lost_ = 0;
 };
 
-int run(const Options& options) {
+int run_share(const ShareOptions& options) {
   int status = ok;
   std::unique_ptr<Bus> adapter = open_bus(options.common, false, status);
   if (adapter == nullptr) {
@@ -257,7 +252,7 @@ int run(const Options& options) {
 }  // namespace
 
 Verb add_share(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ShareOptions>();
   Arguments arguments = line.add_command("share", "Hand one adapter to many programs");
   add_bus_options(arguments, options->common);
   arguments.add_option("--name", options->name, "Name of the hub; default: that of the adapter");
@@ -269,7 +264,7 @@ Verb add_share(CommandLine& line) {
       "Examples:\n"
       "  lexican share -i slcan:/dev/ttyACM0@500k\n"
       "  lexican share -i can0 --name bench --port 0 --slcan-port 0 --pty");
-  return {arguments, [options] { return run(*options); }};
+  return {arguments, [options] { return run_share(*options); }};
 }
 
 }  // namespace lexican::program

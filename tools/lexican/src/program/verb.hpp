@@ -63,6 +63,8 @@ void add_timeout_option(Arguments& arguments, Common& common, std::uint32_t time
 /// Opens the bus of -i. The bit rate of an adapter without --rate and @RATE is found by listening. Prints the reason if
 /// that fails, and sets \a status.
 std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only, int& status);
+/// Time after which restore() of a lost bus is tried again, µs.
+constexpr host_bus::Micros reopen_interval = 500'000;
 /// Reads the descriptions of --eds. Prints the reason if that fails.
 bool read_descriptions(const Common& common, describe::Network& network);
 
@@ -71,6 +73,9 @@ std::uint32_t bit_rate_of(std::string_view text);
 
 /// Converts a node-ID, 1 to 127; 0: it is none.
 std::uint8_t node_of(std::string_view text);
+
+/// Returns the name of an NMT state as error control shows it; 0 is the boot-up message.
+std::string state_text(std::uint8_t state);
 
 /// Asks on the terminal.
 /// \retval true  the answer is yes

@@ -12,7 +12,7 @@
 namespace lexican::program {
 namespace {
 
-struct Options : TransferOptions {
+struct WriteOptions : TransferOptions {
   std::string value;
   std::string file;
   bool verifies = false;
@@ -39,7 +39,7 @@ std::string beyond_limits(const Target& target, const std::string& value) {
 
 /// Converts what has to be written.
 /// \retval false  the reason is printed
-bool data_of(const Options& options, const Target& target, bool is_forced, Bytes& data) {
+bool data_of(const WriteOptions& options, const Target& target, bool is_forced, Bytes& data) {
   std::string why;
   if (options.value.empty() == options.file.empty()) {
     print_message("give a value, or --file, and not both");
@@ -83,7 +83,7 @@ bool data_of(const Options& options, const Target& target, bool is_forced, Bytes
   return true;
 }
 
-int verify(Session& session, const Target& target, const Options& options, const Bytes& data) {
+int verify(Session& session, const Target& target, const WriteOptions& options, const Bytes& data) {
   const Transfer transfer =
       session.sdo().upload(target.object.index, target.object.sub_index,
                            {static_cast<std::uint32_t>(data.size() + 1024), options.common.timeout, {}});
@@ -102,7 +102,7 @@ int verify(Session& session, const Target& target, const Options& options, const
   return ok;
 }
 
-int run(const Options& options, bool is_forced) {
+int run_write(const WriteOptions& options, bool is_forced) {
   Target target;
   Bytes data;
   if (!prepare(options, target) || (target.is_found && !data_of(options, target, is_forced, data))) {
@@ -151,7 +151,7 @@ int run(const Options& options, bool is_forced) {
 }  // namespace
 
 Verb add_write(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WriteOptions>();
   const auto is_forced = std::make_shared<bool>(false);
   Arguments arguments = line.add_command("write", "Write an object of a device");
   add_transfer_options(arguments, *options);
@@ -165,7 +165,7 @@ Verb add_write(CommandLine& line) {
       "  lexican write 5 \"profile velocity\" 2000 --verify -i can0 --eds drive.eds\n"
       "  lexican write 5 1010:1 save -i can0\n"
       "  lexican write 5 1F50:1 --file firmware.bin -i can0");
-  return {arguments, [options, is_forced] { return run(*options, *is_forced); }};
+  return {arguments, [options, is_forced] { return run_write(*options, *is_forced); }};
 }
 
 }  // namespace lexican::program

@@ -6,12 +6,12 @@
 namespace lexican::trace {
 namespace {
 
-struct Row {
+struct AbortCode {
   std::uint32_t code;
   const char* meaning;
 };
 
-constexpr Row rows[] = {
+constexpr AbortCode abort_codes[] = {
     // [301:7.2.4.3.17]
     {CO_SDO_ERR_TBIT, "toggle bit not alternated"},
     {CO_SDO_ERR_TIMEOUT, "protocol timed out"},
@@ -49,7 +49,7 @@ constexpr Row rows[] = {
 }  // namespace
 
 const char* abort_meaning(std::uint32_t code) {
-  for (const Row& row : rows) {
+  for (const AbortCode& row : abort_codes) {
     if (row.code == code) {
       return row.meaning;
     }

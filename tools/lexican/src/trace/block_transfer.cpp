@@ -5,7 +5,6 @@ namespace lexican::trace {
 namespace {
 
 constexpr std::uint8_t abort_transfer = 0x80;  // the only first byte that is not a segment within a sub-block
-constexpr std::uint8_t last_segment = 0x80;
 constexpr std::uint8_t sequence_number = 0x7F;
 
 // Commands of block transfer in bits 7…5, and their sub-commands in bits 1…0. [301:7.2.4.3.8…7.2.4.3.16]
@@ -13,7 +12,6 @@ enum Request : unsigned { upload_request = 5, download_request = 6 };
 enum Response : unsigned { download_response = 5, upload_response = 6 };
 enum Step : unsigned { initiate = 0, end = 1, acknowledged = 2, start = 3 };
 
-unsigned command(const CO_IF_FRM& frame) { return frame.Data[0] >> 5; }
 unsigned step(const CO_IF_FRM& frame) { return frame.Data[0] & 3u; }
 
 }  // namespace
@@ -27,22 +25,22 @@ Role BlockTransfer::follow(Sender from, const CO_IF_FRM& frame) {
 
 Role BlockTransfer::segment(const CO_IF_FRM& frame) {
   const auto number = static_cast<std::uint8_t>(frame.Data[0] & sequence_number);
-  const bool last = (frame.Data[0] & last_segment) != 0;
+  const bool last = (frame.Data[0] & last_block_segment) != 0;
   last_ = last ? number : std::uint8_t{0};
   open_ = !last && number != block_size_;
   return last ? Role::last_segment : Role::segment;
 }
 
 Role BlockTransfer::request(const CO_IF_FRM& frame) {
-  if (command(frame) == download_request) {
+  if (command_specifier(frame) == download_request) {
     if ((frame.Data[0] & end) == 0) {  // bit 0 is the sub-command; bit 1 of an initiate request is the size indicator s
       begin(Sender::client, 0);
     }
     return Role::command;
   }
-  if (command(frame) == upload_request && step(frame) == initiate) {
+  if (command_specifier(frame) == upload_request && step(frame) == initiate) {
     begin(Sender::server, frame.Data[4]);
-  } else if (command(frame) != upload_request || step(frame) == end) {
+  } else if (command_specifier(frame) != upload_request || step(frame) == end) {
     begin(Sender::none, 0);
   } else if (sender_ == Sender::server) {
     return step(frame) == start ? open(block_size_) : acknowledge(frame);
@@ -51,10 +49,10 @@ Role BlockTransfer::request(const CO_IF_FRM& frame) {
 }
 
 Role BlockTransfer::response(const CO_IF_FRM& frame) {
-  if (command(frame) == upload_response) {
+  if (command_specifier(frame) == upload_response) {
     return Role::command;
   }
-  if (command(frame) != download_response || step(frame) == end) {
+  if (command_specifier(frame) != download_response || step(frame) == end) {
     begin(Sender::none, 0);
   } else if (sender_ == Sender::client) {
     return step(frame) == initiate ? open(frame.Data[4]) : acknowledge(frame);

@@ -10,6 +10,11 @@
 
 namespace lexican::trace {
 
+constexpr unsigned last_block_segment = 0x80;  // flag c of a segment
+
+/// Returns the command specifier of an SDO frame that is not a segment of a block transfer.
+inline unsigned command_specifier(const CO_IF_FRM& frame) { return frame.Data[0] >> 5; }
+
 enum class Sender : std::uint8_t { none, client, server };
 
 /// Role of a frame in a block transfer.

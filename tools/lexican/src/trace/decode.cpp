@@ -19,11 +19,7 @@ constexpr unsigned last_segment = 0x01;
 constexpr unsigned toggle = 0x10;
 constexpr unsigned block_crc = 0x04;
 constexpr unsigned block_size_given = 0x02;
-constexpr unsigned last_block_segment = 0x80;
 
-unsigned command(const CO_IF_FRM& frame) { return frame.Data[0] >> 5; }
-unsigned function_code(const CO_IF_FRM& frame) { return frame.Identifier >> 7; }
-unsigned node_id(const CO_IF_FRM& frame) { return frame.Identifier & 0x7Fu; }
 bool is_sdo(const CO_IF_FRM& frame, unsigned code) {
   return function_code(frame) == code && node_id(frame) != 0 && frame.DLC == 8;
 }
@@ -211,7 +207,7 @@ std::string block_upload_response(const CO_IF_FRM& frame, const Names& names) {
 // --- SDO, all transfers
 
 std::string request(const CO_IF_FRM& frame, const Names& names) {
-  switch (command(frame)) {
+  switch (command_specifier(frame)) {
     case 0: return "SDO download " + segment(frame);
     case 1: return "SDO download " + object(frame, names) + content(frame, names);
     case 2: return "SDO upload " + object(frame, names);
@@ -224,7 +220,7 @@ std::string request(const CO_IF_FRM& frame, const Names& names) {
 }
 
 std::string response(const CO_IF_FRM& frame, const Names& names) {
-  switch (command(frame)) {
+  switch (command_specifier(frame)) {
     case 0: return "SDO answer: " + segment(frame);
     case 1: return "SDO answer: segment confirmed" + toggle_of(frame);
     case 2: return "SDO answer: " + object(frame, names) + content(frame, names);
@@ -239,10 +235,10 @@ std::string response(const CO_IF_FRM& frame, const Names& names) {
 /// Returns true if a frame of a segmented transfer is in its middle: a segment except the last one, a request for one,
 /// or its confirmation.
 bool is_in_segments(Sender from, const CO_IF_FRM& frame) {
-  if (command(frame) == 0) {
+  if (command_specifier(frame) == 0) {
     return (frame.Data[0] & last_segment) == 0;
   }
-  return command(frame) == (from == Sender::client ? 3u : 1u);
+  return command_specifier(frame) == (from == Sender::client ? 3u : 1u);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ const char* part(unsigned number) {
 
 std::string number(const CO_IF_FRM& frame) { return text(" %08Xh", CO_GET_LONG(&frame, 1)); }
 
-std::string node_id(const CO_IF_FRM& frame) {
+std::string node_id_text(const CO_IF_FRM& frame) {
   return frame.Data[1] == 255 ? "no node-ID" : text("node-ID %u", frame.Data[1]);
 }
 
@@ -67,7 +67,7 @@ std::string request(const CO_IF_FRM& frame) {
   }
   switch (command) {
     case 0x04: return std::string("LSS switch all to ") + (frame.Data[1] == 0 ? "waiting" : "configuration");
-    case 0x11: return "LSS configure " + node_id(frame);
+    case 0x11: return "LSS configure " + node_id_text(frame);
     case 0x13: return "LSS configure bit timing: " + bit_timing(frame);
     case 0x15: return text("LSS activate bit timing, delay %u ms", CO_GET_WORD(&frame, 1));
     case 0x17: return "LSS store";
@@ -96,7 +96,7 @@ std::string answer(const CO_IF_FRM& frame) {
     case 0x44: return "LSS answer: switched to configuration";
     case identified: return "LSS answer: identified";
     case 0x50: return "LSS answer: node without node-ID";
-    case 0x5E: return "LSS answer: " + node_id(frame);
+    case 0x5E: return "LSS answer: " + node_id_text(frame);
     default: return text("LSS answer: unknown command %02Xh", command);
   }
 }

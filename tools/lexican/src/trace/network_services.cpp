@@ -8,19 +8,16 @@
 namespace lexican::trace {
 namespace {
 
-unsigned function_code(const CO_IF_FRM& frame) { return frame.Identifier >> 7; }
-unsigned node_id(const CO_IF_FRM& frame) { return frame.Identifier & 0x7Fu; }
-
 // --- EMCY [301:7.2.7]
 
-struct Row {
+struct ErrorCode {
   std::uint16_t code;
   std::uint16_t mask;  // of the code
   const char* meaning;
 };
 
 /// The first row that matches is used. [301:7.2.7.1 table 26]
-constexpr Row rows[] = {
+constexpr ErrorCode error_codes[] = {
     {0x8110, 0xFFFF, "CAN overrun, a message is lost"},
     {0x8120, 0xFFFF, "CAN error passive"},
     {0x8130, 0xFFFF, "heartbeat or life guarding missing"},
@@ -52,8 +49,9 @@ constexpr Row rows[] = {
 
 std::string emcy(const CO_IF_FRM& frame) {
   const unsigned code = CO_GET_WORD(&frame, 0);
-  const auto* const row = std::find_if(std::begin(rows), std::end(rows),
-                                       [=](const Row& candidate) { return (code & candidate.mask) == candidate.code; });
+  const auto* const row = std::find_if(std::begin(error_codes), std::end(error_codes), [=](const ErrorCode& candidate) {
+    return (code & candidate.mask) == candidate.code;
+  });
   return text("EMCY %04Xh %s, error register %02Xh", code, row->meaning, frame.Data[2]);
 }
 
