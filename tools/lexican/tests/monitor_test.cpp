@@ -35,16 +35,29 @@ struct Bus {
   std::vector<Micros> times;
   std::vector<Micros> durations;  // of SDO transfers
   Micros now = 0;
+  std::string known;  // description of each device whose identity is known
+  Texts identities;
   Monitor monitor;
 
   explicit Bus(const std::string& description = {})
-      : network(of(description)), monitor(network, [this](const Event& event) {
-          events.push_back(text_of(event));
-          times.push_back(event.time);
-          if (event.sdo != nullptr) {
-            durations.push_back(event.sdo->time - event.sdo->begin);
-          }
-        }) {}
+      : network(of(description)),
+        monitor(
+            network,
+            [this](const Event& event) {
+              events.push_back(text_of(event));
+              times.push_back(event.time);
+              if (event.sdo != nullptr) {
+                durations.push_back(event.sdo->time - event.sdo->begin);
+              }
+            },
+            [this](std::uint8_t node, const Identity& identity) {
+              identities.push_back(std::to_string(node) + ": " + std::to_string(identity.vendor) + ' ' +
+                                   std::to_string(identity.product) + ' ' + std::to_string(identity.revision));
+              if (!known.empty()) {
+                network.describe(node, of(known).of(node));
+              }
+              return !known.empty();
+            }) {}
 
   static Network of(const std::string& description) {
     Network network;
@@ -85,6 +98,12 @@ struct Bus {
     return frame(0x580U + node, {0x60, key[0], key[1], key[2], 0, 0, 0, 0});
   }
 };
+
+/// Lets a master upload a sub-object of 1018h.
+void identify(Bus& bus, std::uint8_t node, std::uint8_t sub_index, std::uint8_t value) {
+  bus.frame(0x600U + node, {0x40, 0x18, 0x10, sub_index, 0, 0, 0, 0});
+  bus.frame(0x580U + node, {0x43, 0x18, 0x10, sub_index, value, 0, 0, 0});
+}
 
 std::string variable(const std::string& section, const std::string& name, const std::string& type,
                      const std::string& value = {}, const std::string& more = {}) {
@@ -290,6 +309,35 @@ TEST_CASE("monitor: PDOs that only the bus describes") {
     const std::string text = bus.frame(cob_id, {1, 2, 3});
     CHECK_MESSAGE(text.find("RPDO1") == std::string::npos, text);
   }
+}
+
+TEST_CASE("monitor: PDOs of a device whose identity was read") {
+  Bus bus;
+  bus.known = drive();
+  bus.write(5, 0x1801, 1, 0x80000285, false);
+  identify(bus, 5, 1, 0xB7);
+  CHECK(bus.identities.empty());
+  CHECK(bus.frame(0x185, {0x37, 0x02, 0xB4, 0x04, 0, 0}) == "pdo 5 TPDO1 37 02 B4 04 00 00");
+  identify(bus, 5, 2, 0x21);
+  CHECK(bus.identities == Texts{"5: 183 33 0"});
+  CHECK(bus.frame(0x185, {0x37, 0x02, 0xB4, 0x04, 0, 0}) == "pdo 5 TPDO1 Statusword = 567, Position = 120.4 deg");
+  CHECK(bus.frame(0x285, {0x01}) == "pdo 5 TPDO2 01");  // the bus has shown that it is not valid
+  CHECK(bus.frame(0x186, {0x37, 0x02, 0xB4, 0x04, 0, 0}) == "pdo 6 TPDO1 37 02 B4 04 00 00");
+  identify(bus, 5, 3, 4);
+  CHECK(bus.identities == Texts{"5: 183 33 0", "5: 183 33 4"});
+  CHECK(bus.frame(0x185, {0x37, 0x02, 0xB4, 0x04, 0, 0}) == "pdo 5 TPDO1 Statusword = 567, Position = 120.4 deg");
+  // Other values than those of a device: a write, a wrong size, a fourth sub-object, and values that go on changing.
+  bus.write(6, 0x1018, 1, 1, false);
+  bus.write(6, 0x1018, 2, 1, false);
+  bus.frame(0x607, {0x40, 0x18, 0x10, 1, 0, 0, 0, 0});
+  bus.frame(0x587, {0x4F, 0x18, 0x10, 1, 1, 0, 0, 0});
+  identify(bus, 7, 2, 1);
+  identify(bus, 7, 4, 1);
+  CHECK(bus.identities.size() == 2);
+  for (std::uint8_t product = 1; product < 100; ++product) {
+    identify(bus, 5, 2, product);
+  }
+  CHECK(bus.identities.size() == 4);
 }
 
 TEST_CASE("monitor: SDO transfers of two devices at the same time") {

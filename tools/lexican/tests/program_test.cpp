@@ -371,6 +371,18 @@ TEST_CASE("lexican: a description of the user's directory is found by the identi
   const Ran json = bench.run("scan", {"--json"});
   CHECK(fault_of(json.out, "scan") == "");
   CHECK(Json::parse(lines_of(json.out)[0])["description"] == library + "/4.eds");
+  const std::string log = bench.directory / "a.log";
+  const std::string upload = "(0.000000) can0 605#4002200000000000\n(0.000000) can0 585#43022000E8030000\n";
+  write_bytes(log, "(0.000000) can0 605#4018100100000000\n(0.000000) can0 585#4318100100010000\n" + upload +
+                       "(0.000000) can0 605#4018100200000000\n(0.000000) can0 585#4318100202040000\n" + upload +
+                       "(0.000000) can0 605#4018100300000000\n(0.000000) can0 585#4318100300000100\n" + upload);
+  const Ran mon = bench.run("mon", {log});
+  CHECK(mon.err == "lexican: node 5 is described by " + library + "/0.eds\nlexican: node 5 is described by " + library +
+                       "/4.eds\n");
+  CHECK(has(mon.out, "5  read 2002h:00 = 000003E8h\n"));
+  CHECK(has(mon.out, "5  read 2002h Place = 1000\n"));
+  CHECK(has(mon.out, "5  read 2002h Position = 1000\n"));
+  CHECK(bench.run("mon", {log, "--eds", library + "/0.eds"}).err == "");  // it is given
   std::filesystem::remove(library + "/4.eds");
   check(bench.run("read", {"5", "2002"}), 0, "2002h Place = 1000 (u32)\n", "");
   check(bench.run("read", {"7", "place", "--timeout", "50"}), 3, "",

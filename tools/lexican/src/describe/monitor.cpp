@@ -168,7 +168,8 @@ double Statistics::load(std::uint32_t bit_rate) const {
                                               (static_cast<double>(duration) * static_cast<double>(bit_rate));
 }
 
-Monitor::Monitor(const Network& network, Show show) : network_(network), show_(std::move(show)), decoder_(no_names) {
+Monitor::Monitor(const Network& network, Show show, Identified identified)
+    : network_(network), show_(std::move(show)), identified_(std::move(identified)), decoder_(no_names) {
   std::map<const codict::Device*, std::vector<codict::Pdo>> described;  // a device can describe many nodes
   for (std::uint8_t node = 1; node <= 127; ++node) {
     const codict::Device* const device = network_.of(node).device();
@@ -185,7 +186,12 @@ Monitor::Monitor(const Network& network, Show show) : network_(network), show_(s
 void Monitor::describe_pdos(std::uint8_t node, const std::vector<codict::Pdo>& all) {
   for (const codict::Pdo& described : all) {
     const PdoKey at = key(node, described.is_transmit, described.number);
+    const auto known = pdos_.find(at);
+    if (known != pdos_.end() ? known->second.is_observed : pdos_.size() >= most_pdos) {
+      continue;
+    }
     Pdo& pdo = pdos_[at];
+    pdo.entries.clear();
     pdo.node = node;
     pdo.is_transmit = described.is_transmit;
     pdo.number = described.number;
@@ -464,9 +470,38 @@ void Monitor::report(std::uint8_t node, const SdoTransfer& transfer, Micros time
   }
 }
 
-/// Follows changes of PDO parameters.
+/// Reports the identity of a device as soon as vendor-ID and product code are known, and each change.
+void Monitor::learn_identity(std::uint8_t node, const SdoTransfer& transfer) {
+  constexpr unsigned most_reports = 4;  // a report may read files
+  Seen& seen = seen_[node];
+  const bool is_part = transfer.sub_index >= 1 && transfer.sub_index <= seen.parts.size();
+  if (!is_part || transfer.is_download || transfer.data.size() != 4 || !identified_ || seen.reports >= most_reports) {
+    return;
+  }
+  const auto value = static_cast<std::uint32_t>(number_in(transfer.data.data(), 0, 32));
+  std::optional<std::uint32_t>& part = seen.parts[transfer.sub_index - 1U];
+  if (part == value) {
+    return;
+  }
+  part = value;
+  const auto& [vendor, product, revision] = seen.parts;
+  if (!vendor || !product) {
+    return;
+  }
+  ++seen.reports;
+  if (identified_(node, {*vendor, *product, revision.value_or(0)})) {
+    const codict::Device* const device = network_.of(node).device();
+    describe_pdos(node, device != nullptr ? codict::pdos_of(*device) : std::vector<codict::Pdo>());
+  }
+}
+
+/// Follows changes of PDO parameters, and the identity of devices.
 void Monitor::learn(std::uint8_t node, const SdoTransfer& transfer) {
   const std::uint16_t index = transfer.index;
+  if (index == 0x1018) {
+    learn_identity(node, transfer);
+    return;
+  }
   const bool is_transmit = index >= 0x1800;
   const bool is_mapping = (index & 0x0200U) != 0;
   if (index < 0x1400 || index > 0x1BFF || transfer.size == 0 || transfer.size > 4) {
@@ -481,6 +516,7 @@ void Monitor::learn(std::uint8_t node, const SdoTransfer& transfer) {
   pdo.node = node;
   pdo.is_transmit = is_transmit;
   pdo.number = number;
+  pdo.is_observed = true;
   const auto value =
       static_cast<std::uint32_t>(number_in(transfer.data.data(), 0, static_cast<unsigned>(8 * transfer.data.size())));
   if (!is_mapping && transfer.sub_index == 1) {

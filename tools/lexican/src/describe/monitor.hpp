@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "describe/description.hpp"
+#include "describe/library.hpp"
 #include "describe/sdo_transfer.hpp"
 #include "model/pdo.hpp"
 #include "trace/decode.hpp"
@@ -58,8 +58,12 @@ class Monitor {
  public:
   using Show = std::function<void(const Event&)>;
 
+  /// Called when a master has read who a device is (1018h), at most four times for a node.
+  /// \retval true  the network has a new description of the node
+  using Identified = std::function<bool(std::uint8_t node, const Identity& identity)>;
+
   /// \a network must outlive the monitor. \a show is called for each event.
-  Monitor(const Network& network, Show show);
+  Monitor(const Network& network, Show show, Identified identified = {});
 
   /// Processes the next frame of the bus.
   void process(const host_bus::Entry& entry);
@@ -83,7 +87,14 @@ class Monitor {
     std::uint32_t cob_id = 0x80000000;
     std::vector<std::uint32_t> entries;  ///< of the mapping parameter, sub-indices 1 …
     std::uint8_t count = 0;              ///< sub-index 0
+    bool is_observed = false;            ///< a parameter was seen on the bus
   };
+  /// Of the identity object of a node, as it was read.
+  struct Seen {
+    std::array<std::optional<std::uint32_t>, 3> parts{};  ///< vendor-ID, product code, revision number
+    unsigned reports = 0;
+  };
+
   using PdoKey = std::uint32_t;  ///< of TPDOs lower than of RPDOs
 
   /// Last messages of error control of a node.
@@ -109,6 +120,7 @@ class Monitor {
   bool is_scanned(std::uint8_t node, const SdoTransfer& transfer);
   static Bytes value_in(const Description& description, const SdoTransfer& transfer);
   void learn(std::uint8_t node, const SdoTransfer& transfer);
+  void learn_identity(std::uint8_t node, const SdoTransfer& transfer);
   void describe_pdos(std::uint8_t node, const std::vector<codict::Pdo>& all);
   void set_cob_id(PdoKey key, Pdo& pdo, std::uint32_t cob_id);
   std::string show_pdo(const Pdo& pdo, const CO_IF_FRM& frame) const;
@@ -117,6 +129,8 @@ class Monitor {
 
   const Network& network_;
   Show show_;
+  Identified identified_;
+  std::array<Seen, 128> seen_{};
   Statistics statistics_;
   trace::Decoder decoder_;
   std::array<SdoFollower, 128> servers_{};

@@ -180,8 +180,13 @@ std::string identifier_text(std::uint32_t identifier) {
 
 class Mon {
  public:
-  Mon(const MonOptions& options, const describe::Network& network)
-      : options_(options), printer_(options), monitor_(network, [this](const Event& event) { printer_.show(event); }) {}
+  Mon(const MonOptions& options, describe::Network& network)
+      : options_(options),
+        network_(network),
+        printer_(options),
+        monitor_(
+            network, [this](const Event& event) { printer_.show(event); },
+            [this](std::uint8_t node, const describe::Identity& identity) { return describe_node(node, identity); }) {}
 
   int run(host_bus::Bus& bus) {
     const Interruption interruption;
@@ -204,6 +209,21 @@ class Mon {
   Recorder& recorder() { return recorder_; }
 
  private:
+  /// Describes a node by the user's library, unless --eds describes it.
+  bool describe_node(std::uint8_t node, const describe::Identity& identity) {
+    if (network_.of(node).device() != nullptr && files_.find(node) == files_.end()) {
+      return false;
+    }
+    std::optional<describe::Known> known = describe::find_description(describe::user_library(), identity);
+    if (!known || files_[node] == known->file) {
+      return false;
+    }
+    print_message(fmt::format("node {} is described by {}", node, known->file));
+    files_[node] = known->file;
+    network_.describe(node, std::move(known->description));
+    return true;
+  }
+
   /// Tries to open a lost bus again, and says when it is lost and when it is back.
   void reopen(host_bus::Bus& bus, Micros& last) {
     if (!is_lost_) {
@@ -306,6 +326,8 @@ class Mon {
   }
 
   const MonOptions& options_;
+  describe::Network& network_;
+  std::map<std::uint8_t, std::string> files_;  ///< of the user's library, by node-ID
   Printer printer_;
   describe::Monitor monitor_;
   Recorder recorder_;
