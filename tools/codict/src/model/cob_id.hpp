@@ -11,6 +11,8 @@
 
 namespace lexican::codict {
 
+constexpr std::uint64_t cob_id_invalid = 0x80000000U;  ///< bit 31 of a COB-ID: the PDO or service does not exist
+
 inline constexpr std::uint32_t cob_id_extended = 0x20000000U;  ///< bit of a COB-ID: 29-bit identifier
 
 struct CobId {

@@ -18,8 +18,6 @@
 
 namespace lexican::codict::network {
 
-constexpr std::uint64_t cob_id_invalid = 0x80000000U;  ///< bit 31 of a COB-ID: the PDO or service does not exist
-
 struct Node {
   std::string name;
   std::uint8_t node_id = 0;  ///< 0: unknown
