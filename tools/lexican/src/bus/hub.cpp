@@ -22,7 +22,6 @@
 namespace lexican::host_bus {
 namespace {
 
-constexpr std::string_view greeting = "lexican-hub 1 ";
 constexpr const char* no_hub = "the program at this socket is not a hub of this version of lexican";
 constexpr const char* ended = "the hub has ended";
 constexpr std::size_t longest_greeting = 64;
@@ -221,11 +220,11 @@ class HubBus : public Bus {
  private:
   void read_greeting(std::string_view text) {
     constexpr std::string_view simulated = "simulated";
-    if (text.substr(0, greeting.size()) != greeting) {
+    if (text.substr(0, hub_greeting.size()) != hub_greeting) {
       disconnect(no_hub);
       return;
     }
-    text.remove_prefix(greeting.size());
+    text.remove_prefix(hub_greeting.size());
     is_greeted_ = true;
     is_physical_ = text.substr(0, simulated.size()) != simulated;
     const std::size_t space = text.find(' ');

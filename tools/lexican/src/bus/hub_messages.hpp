@@ -6,11 +6,14 @@
 #include <sys/un.h>
 
 #include <cstring>
+#include <string_view>
 
 #include "bus/hub.hpp"
 #include "bus/log_formats.hpp"
 
 namespace lexican::host_bus {
+
+constexpr std::string_view hub_greeting = "lexican-hub 1 ";  ///< the beginning of the greeting
 
 /// Stores the \a bytes low bytes of a number in a message.
 inline void put(HubMessage& message, std::size_t begin, unsigned bytes, std::uint64_t number) {

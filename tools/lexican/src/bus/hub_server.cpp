@@ -50,7 +50,7 @@ std::uint32_t arbitration(const HubMessage& message) {
 }  // namespace
 
 HubServer::HubServer(const std::string& greeting, std::uint32_t bit_rate)
-    : greeting_("lexican-hub 1 " + greeting), bit_rate_(bit_rate), wire_(std::max(bit_rate, 1U)) {}
+    : greeting_(std::string(hub_greeting) + greeting), bit_rate_(bit_rate), wire_(std::max(bit_rate, 1U)) {}
 
 HubServer::~HubServer() {
   for (const Client& client : clients_) {

@@ -8,6 +8,11 @@
 #include "bus/socketcand.hpp"
 
 namespace lexican::host_bus {
+namespace {
+
+using Kind = SocketcandMessage::Kind;
+
+}  // namespace
 
 SocketcandServer::~SocketcandServer() {
   for (const Client& client : clients_) {
@@ -83,7 +88,6 @@ bool SocketcandServer::read_from(Client& client, Micros now) {
 }
 
 void SocketcandServer::handle(Client& client, const SocketcandMessage& message, Micros now) {
-  using Kind = SocketcandMessage::Kind;
   if (client.is_ending) {
     return;
   }

@@ -53,7 +53,7 @@ void add_timeout_option(Arguments& arguments, Common& common, std::uint32_t time
 namespace {
 
 constexpr Micros time_at_rate = 150'000;  // of the first round of listening
-constexpr unsigned rounds = 3;            // 18 s
+constexpr unsigned listening_rounds = 3;  // 18 s
 
 /// Finds the bit rate of an adapter that is opened to listen only, and sets rate and mode.
 /// \retval status of the program
@@ -63,7 +63,7 @@ int find_rate(host_bus::Bus& bus, const Common& common, bool listens_only) {
     print_message("listening at each bit rate; --rate 500k gives it");
   }
   const auto listen = [&](bool acknowledges) {
-    return listen_for_rate(bus, {0, true, acknowledges}, time_at_rate, rounds, interruption);
+    return listen_for_rate(bus, {0, true, acknowledges}, time_at_rate, listening_rounds, interruption);
   };
   HeardRate heard = listen(false);
   if (heard.is_refused && !common.is_sure) {
