@@ -676,6 +676,12 @@ TEST_CASE("lexican nmt: the state of a device without heartbeat is unknown") {
         "on\n");
   check(bench.run("nmt", {"stop", "5", "--timeout", "50"}), 0, "",
         "lexican: sent; node 5 has sent no heartbeat, so its state is unknown\n");
+  for (const char* unseen : {"5", "9"}) {  // node 5 is stopped now
+    CAPTURE(unseen);
+    check(bench.run("nmt", {"stop", unseen, "--timeout", "50"}), 3, "",
+          std::string("lexican: sent; node ") + unseen +
+              " has sent no heartbeat, and did not answer before: it is not there, or was stopped already\n");
+  }
   check(bench.run("nmt", {"preop", "9", "--timeout", "50"}), 3, "",
         "lexican: sent; node 9 has sent no heartbeat, and does not answer; lexican scan shows who answers\n");
   check(bench.run("nmt", {"reset", "9", "--timeout", "50"}), 3, "",
@@ -688,6 +694,14 @@ TEST_CASE("lexican nmt: a heartbeat that is slower than --timeout is waited for"
   CHECK(bench.run("write", {"5", "1017", "4000"}).status == 0);
   check(bench.run("nmt", {"start", "5", "--timeout", "1000"}), 0, "node 5 is operational\n",
         "lexican: waiting for the heartbeat of node 5, which it sends every 4000 ms\n");
+  check(bench.run("nmt", {"stop", "5", "--timeout", "1000"}), 0, "node 5 is stopped\n",
+        "lexican: waiting for the heartbeat of node 5, which it sends every 4000 ms\n");
+}
+
+TEST_CASE("lexican nmt: a device with a heartbeat and without SDO server can be stopped") {
+  Bench bench;
+  bench.add(12, "silent");
+  check(bench.run("nmt", {"stop", "12", "--timeout", "1000"}), 0, "node 12 is stopped\n", "");
 }
 
 TEST_CASE("lexican nmt: all nodes, without a question on a simulated bus") {

@@ -11,6 +11,8 @@
 namespace lexican::program {
 namespace {
 
+constexpr std::uint8_t stopped = 0x04;
+
 struct Command {
   const char* name;
   CO_NMT_COMMAND specifier;
@@ -18,7 +20,7 @@ struct Command {
 };
 
 constexpr Command commands[] = {
-    {"start", CO_NMT_COMMAND_START, 0x05},          {"stop", CO_NMT_COMMAND_STOP, 0x04},
+    {"start", CO_NMT_COMMAND_START, 0x05},          {"stop", CO_NMT_COMMAND_STOP, stopped},
     {"preop", CO_NMT_COMMAND_PREOP, 0x7F},          {"reset", CO_NMT_COMMAND_RESET_NODE, 0x00},
     {"reset-comm", CO_NMT_COMMAND_RESET_COM, 0x00},
 };
@@ -75,14 +77,14 @@ std::uint8_t wait_for_state(Session& session, std::uint8_t node, std::uint8_t st
 
 /// Heartbeat time of a device, read from 1017h.
 struct HeartbeatTime {
-  bool is_answered = false;           ///< the device has answered the request, or was not asked
+  bool is_answered = false;           ///< the device has answered the request, or was heard meanwhile, or was not asked
   std::optional<std::uint32_t> time;  ///< ms; 0: off
 };
 
 HeartbeatTime read_heartbeat_time(Session& session, std::uint32_t timeout) {
   const Transfer transfer = session.sdo().upload(0x1017, 0, {SdoClient::small, timeout, {}});
   const bool is_number = transfer.done() && transfer.data.size() == 2;
-  return {transfer.code != CO_SDO_ERR_TIMEOUT,
+  return {transfer.code != CO_SDO_ERR_TIMEOUT || session.is_heard(),
           is_number ? std::optional(static_cast<std::uint32_t>(number_of(transfer.data))) : std::nullopt};
 }
 
@@ -93,24 +95,31 @@ int report_unknown(std::uint8_t node, const Command& command, std::uint32_t time
     print_message(sent + fmt::format("boot-up message within {} ms", timeout));
     return no_answer;
   }
+  if (!heartbeat.is_answered && command.state == stopped) {
+    print_message(sent + "heartbeat, and did not answer before: it is not there, or was stopped already");
+    return no_answer;
+  }
   if (!heartbeat.is_answered) {
     print_message(sent + "heartbeat, and does not answer; lexican scan shows who answers");
     return no_answer;
   }
   print_message(sent + "heartbeat, so its state is unknown" +
-                (!heartbeat.time.has_value() ? ""
-                 : *heartbeat.time == 0      ? fmt::format("; lexican write {} 1017 1000 switches it on", node)
-                                             : fmt::format(", although 1017h is {} ms", *heartbeat.time)));
+                (!heartbeat.time.has_value()                        ? ""
+                 : *heartbeat.time == 0 && command.state == stopped ? ""
+                 : *heartbeat.time == 0 ? fmt::format("; lexican write {} 1017 1000 switches it on", node)
+                                        : fmt::format(", although 1017h is {} ms", *heartbeat.time)));
   return ok;
 }
 
 /// Waits for the state, and prints whether the device has it. A heartbeat may be slower than --timeout.
-int report_state(Session& session, std::uint8_t node, const Command& command, const Common& common) {
+/// \a before: what was read before the command; nothing: it is read if there is no heartbeat.
+int report_state(Session& session, std::uint8_t node, const Command& command, const Common& common,
+                 const std::optional<HeartbeatTime>& before) {
   std::uint8_t last = wait_for_state(session, node, command.state, common.timeout * millisecond);
-  const bool is_sdo_possible = command.state == 0x05 || command.state == 0x7F;
+  const bool has_heartbeat = command.state != 0;
   HeartbeatTime heartbeat{true, std::nullopt};
-  if (last == no_state && is_sdo_possible && !session.host().interrupted()) {
-    heartbeat = read_heartbeat_time(session, common.timeout);
+  if (last == no_state && has_heartbeat && !session.host().interrupted()) {
+    heartbeat = before ? *before : read_heartbeat_time(session, common.timeout);
     const std::uint32_t time = heartbeat.time.value_or(0);
     if (time != 0) {
       print_message(fmt::format("waiting for the heartbeat of node {}, which it sends every {} ms", node, time));
@@ -167,6 +176,14 @@ int run_nmt(const NmtOptions& options) {
   }
   Session session(std::move(bus), is_all ? std::uint8_t{127} : node);
   const Micros timeout = options.common.timeout * millisecond;
+  std::optional<HeartbeatTime> before;
+  if (!is_all && chosen->state == stopped) {  // it answers no SDO afterwards
+    before = read_heartbeat_time(session, options.common.timeout);
+  }
+  if (session.is_interrupted()) {
+    print_message("interrupted; nothing was sent");
+    return interrupted;
+  }
   const CO_IF_FRM frame = {0, {static_cast<std::uint8_t>(chosen->specifier), node}, 2};
   if (!send(session.bus(), session.host(), frame, timeout)) {
     const std::string& fault = session.bus().fault();
@@ -176,7 +193,7 @@ int run_nmt(const NmtOptions& options) {
   if (is_all) {
     flush(session.bus(), session.host());
   }
-  status = is_all ? ok : report_state(session, node, *chosen, options.common);
+  status = is_all ? ok : report_state(session, node, *chosen, options.common, before);
   if (!session.bus().refusal().empty()) {
     print_message(session.bus().refusal() + ": the command was not sent");
     return bus_fault;

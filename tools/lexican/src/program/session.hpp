@@ -16,6 +16,7 @@ class Session {
       : bus_(std::move(bus)), client_(host_, server, [this, server](bool is_received, const CO_IF_FRM& frame) {
           const bool is_state = is_received && frame.Identifier == 0x700U + server && frame.DLC == 1;
           is_stopped_ = is_state ? (frame.Data[0] & 0x7FU) == 0x04 : is_stopped_;
+          is_heard_ = is_heard_ || is_state;
         }) {}
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -25,6 +26,8 @@ class Session {
   BusHost& host() { return host_; }
   /// Returns true if the last heartbeat of the server during the transfers has the state Stopped.
   bool is_stopped() const { return is_stopped_; }
+  /// Returns true if a heartbeat of the server was received during the transfers.
+  bool is_heard() const { return is_heard_; }
   bool is_interrupted() const { return Interruption::happened(); }
 
  private:
@@ -32,6 +35,7 @@ class Session {
   std::unique_ptr<host_bus::Bus> bus_;
   BusHost host_{*bus_, interruption_};
   bool is_stopped_ = false;
+  bool is_heard_ = false;
   DeviceClient client_;
 };
 
