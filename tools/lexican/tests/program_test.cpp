@@ -464,6 +464,17 @@ TEST_CASE("lexican write: values of each type, and what reads back") {
   CHECK(bench.run("read", {"5", "2001", "--type", "u32", "--json"}).status == 1);
 }
 
+TEST_CASE("lexican write: an empty text empties a string or domain, and is no value of another type") {
+  const Bench bench{5};
+  check(bench.run("write", {"5", "2005", "", "--eds", eds, "--verify"}), 0, "2005h Label = \"\" (string)\n", "");
+  check(bench.run("read", {"5", "2005", "--eds", eds}), 0, "2005h Label = \"\" (string)\n", "");
+  check(bench.run("write", {"5", "2009", "", "--type", "bytes"}), 0, "2009h:00 =  (bytes)\n", "");
+  check(bench.run("write", {"5", "2000", "", "--eds", eds}), 2, "", "lexican: 2000h Output: '' is no integer\n");
+  CHECK(bench.run("write", {"5", "2002", ""}).status == 2);
+  check(bench.run("write", {"5", "2005", "", "--file", eds}), 2, "",
+        "lexican: give a value, or --file, and not both\n");
+}
+
 TEST_CASE("lexican write: a value that does not fit is refused before anything is sent") {
   const Bench bench;
   check(bench.run("write", {"5", "2000", "256", "--eds", eds}), 2, "",

@@ -107,6 +107,11 @@ Option Arguments::add_option(const std::string& names, std::string& value, const
   return {*grammar_, *app_->add_option(names, value, help)};
 }
 
+Option Arguments::add_option(const std::string& names, std::optional<std::string>& value, const std::string& help) {
+  const auto set = [&value](const std::string& text) { value = text; };
+  return {*grammar_, *app_->add_option_function<std::string>(names, set, help)};
+}
+
 Option Arguments::add_option(const std::string& names, std::vector<std::string>& values, const std::string& help) {
   return {*grammar_, *app_->add_option(names, values, help)};
 }

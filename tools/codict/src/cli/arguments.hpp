@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,8 @@ class Arguments {
   /// Name of the command.
   const std::string& name() const;
   Option add_option(const std::string& names, std::string& value, const std::string& help);
+  /// \a value: nothing unless the option is given; its text may be empty.
+  Option add_option(const std::string& names, std::optional<std::string>& value, const std::string& help);
   Option add_option(const std::string& names, std::vector<std::string>& values, const std::string& help);
   Option add_option(const std::string& names, std::uint8_t& value, const std::string& help);
   Option add_option(const std::string& names, std::uint16_t& value, const std::string& help);

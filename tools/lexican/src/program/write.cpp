@@ -13,7 +13,7 @@ namespace lexican::program {
 namespace {
 
 struct WriteOptions : TransferOptions {
-  std::string value;
+  std::optional<std::string> value;
   std::string file;
   bool verifies = false;
 };
@@ -41,7 +41,7 @@ std::string beyond_limits(const Target& target, const std::string& value) {
 /// \retval false  the reason is printed
 bool data_of(const WriteOptions& options, const Target& target, bool is_forced, Bytes& data) {
   std::string why;
-  if (options.value.empty() == options.file.empty()) {
+  if (options.value.has_value() != options.file.empty()) {
     print_message("give a value, or --file, and not both");
     return false;
   }
@@ -55,26 +55,27 @@ bool data_of(const WriteOptions& options, const Target& target, bool is_forced, 
     data.assign(bytes.begin(), bytes.end());
     return true;
   }
+  const std::string& value = *options.value;
   const std::string_view signature = describe::signature_of(target.object.index, target.object.sub_index);
   if (options.verifies && !signature.empty()) {
     print_message(target.name + " does not read back what is written; leave out --verify");
     return false;
   }
-  if (target.object.sub_index == 0 && options.value == describe::signature_of(target.object.index, 1)) {
-    print_message(fmt::format("{0:04X}h:00 cannot be written; '{1}' is for {0:X}:1, all parameters",
-                              target.object.index, options.value));
+  if (target.object.sub_index == 0 && !value.empty() && value == describe::signature_of(target.object.index, 1)) {
+    print_message(
+        fmt::format("{0:04X}h:00 cannot be written; '{1}' is for {0:X}:1, all parameters", target.object.index, value));
     return false;
   }
-  if (options.value == signature) {
-    data.assign(options.value.begin(), options.value.end());
+  if (!value.empty() && value == signature) {
+    data.assign(value.begin(), value.end());
     return true;
   }
   if (!target.type) {
     print_message("the type of " + target.name + " is unknown; give --type (" + value_type_names + ") or --eds");
     return false;
   }
-  const Encoded encoded = encode(*target.type, options.value);
-  why = !encoded.fault.empty() ? encoded.fault : is_forced ? std::string() : beyond_limits(target, options.value);
+  const Encoded encoded = encode(*target.type, value);
+  why = !encoded.fault.empty() ? encoded.fault : is_forced ? std::string() : beyond_limits(target, value);
   if (!why.empty()) {
     print_message(target.name + ": " + why);
     return false;
