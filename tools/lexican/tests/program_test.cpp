@@ -307,6 +307,31 @@ TEST_CASE("lexican read: an object by its name, or a part of it") {
   CHECK(has(lines_of(ambiguous.err).back(), " more"));
 }
 
+TEST_CASE("lexican read: an index or sub-index that is wrong") {
+  Bench bench{5};
+  for (const char* word : {"1018sub4", "1018Sub04", "0x1018:0x4", "1018h:4h", "1018h:04", "1018:04h"}) {
+    CAPTURE(word);
+    check(bench.run("read", {"5", word}), 0, "1018h:04 serial number = 000001A2h (u32)\n", "");
+  }
+  const std::string index = " is no index, which is 0 to FFFF (hexadecimal): 1018, 1018:4, 1018h:04, 1018sub4\n";
+  const std::string sub = " is no sub-index, which is 0 to FF (hexadecimal): 1018, 1018:4, 1018h:04, 1018sub4\n";
+  for (const auto& [word, message] : std::vector<std::pair<std::string, std::string>>{{"1018:999", "'999'" + sub},
+                                                                                      {"1018:", "''" + sub},
+                                                                                      {"1018:x", "'x'" + sub},
+                                                                                      {"1018sub100", "'100'" + sub},
+                                                                                      {"1018:4:5", "'4:5'" + sub},
+                                                                                      {"12345", "'12345'" + index},
+                                                                                      {"0x12345", "'0x12345'" + index},
+                                                                                      {"12345h:1", "'12345h'" + index},
+                                                                                      {"10g8:1", "'10g8'" + index},
+                                                                                      {":4", "''" + index}}) {
+    CAPTURE(word);
+    check(bench.run("read", {"5", word}), 2, "", "lexican: " + message);
+    check(bench.run("read", {"5", word, "--eds", eds}), 2, "", "lexican: " + message);
+    check(bench.run("read", {"9", word, "--yes"}), 2, "", "lexican: " + message);  // the device is not asked
+  }
+}
+
 TEST_CASE("lexican read: an abort is shown with object, code, meaning and remedy") {
   const Bench bench{5};
   check(bench.run("read", {"5", "2007", "--eds", eds}), 1, "",

@@ -35,11 +35,48 @@ bool parse_hex(std::string_view text, Number& number) {
   return !text.empty() && error == std::errc() && next == end;
 }
 
-bool parse_reference(std::string_view word, ObjectReference& reference) {
+/// The parts of INDEX, INDEX:SUB or INDEXsubSUB.
+struct ReferenceText {
+  std::string_view index;
+  std::optional<std::string_view> sub_index;
+};
+
+ReferenceText split_reference(std::string_view word) {
   const std::size_t colon = word.find(':');
+  const std::size_t sub = lower(word).find("sub");
+  if (colon != std::string_view::npos) {
+    return {word.substr(0, colon), word.substr(colon + 1)};
+  }
+  return sub != std::string::npos ? ReferenceText{word.substr(0, sub), word.substr(sub + 3)}
+                                  : ReferenceText{word, std::nullopt};
+}
+
+bool parse_reference(std::string_view word, ObjectReference& reference) {
+  const ReferenceText parts = split_reference(word);
   reference.sub_index = 0;
-  return parse_hex(word.substr(0, colon), reference.index) &&
-         (colon == std::string_view::npos || parse_hex(word.substr(colon + 1), reference.sub_index));
+  return parse_hex(parts.index, reference.index) &&
+         (!parts.sub_index || parse_hex(*parts.sub_index, reference.sub_index));
+}
+
+/// Returns the fault of a word that is an index or sub-index, not a name; empty: it is a name, or has no fault.
+std::string reference_fault(std::string_view word) {
+  const ReferenceText parts = split_reference(word);
+  const bool has_colon = word.find(':') != std::string_view::npos;
+  const bool begins_with_digit = !parts.index.empty() && std::isdigit(static_cast<unsigned char>(parts.index[0])) != 0;
+  std::uint64_t number = 0;
+  std::uint8_t sub_index = 0;
+  const bool is_hex = parse_hex(parts.index, number);
+  const bool has_sub_number = parts.sub_index && parse_hex(*parts.sub_index, number);
+  constexpr const char* notations = "(hexadecimal): 1018, 1018:4, 1018h:04, 1018sub4";
+  ObjectReference of_index;
+  if (is_hex && parse_hex(parts.index, of_index.index)) {
+    return (has_colon || has_sub_number) && !parse_hex(*parts.sub_index, sub_index)
+               ? fmt::format("'{}' is no sub-index, which is 0 to FF {}", *parts.sub_index, notations)
+               : std::string();
+  }
+  return (is_hex && begins_with_digit) || (has_colon && (is_hex || begins_with_digit || parts.index.empty()))
+             ? fmt::format("'{}' is no index, which is 0 to FFFF {}", parts.index, notations)
+             : std::string();
 }
 
 struct Named {
@@ -136,6 +173,10 @@ bool find_object(const std::string& word, const describe::Description& descripti
           listed(matches, description);
     return false;
   }
+  why = reference_fault(word);
+  if (!why.empty()) {
+    return false;
+  }
   std::vector<std::string_view> all;
   for (const Named& candidate : names) {
     all.emplace_back(candidate.name);
@@ -222,8 +263,8 @@ bool prepare(const TransferOptions& options, Target& target) {
   ObjectReference reference;
   std::string why;
   const bool is_known = find_object(options.object, description, reference, why);
-  const bool is_deferred =
-      description.device() == nullptr && (has_library || (!is_known && may_upload(options.common)));
+  const bool is_deferred = description.device() == nullptr && (is_known || reference_fault(options.object).empty()) &&
+                           (has_library || (!is_known && may_upload(options.common)));
   return is_deferred || find(options, target);
 }
 

@@ -45,8 +45,8 @@ struct ObjectReference {
   std::uint8_t sub_index = 0;
 };
 
-/// Finds an object by index and sub-index (6081, 0x6081, 1018:4, 1018h:04), by its name, or by a part of its name.
-/// \retval false  \a why says why, with similar names
+/// Finds an object by index and sub-index (6081, 0x6081, 1018:4, 1018h:04, 1018sub4), by its name, or by a part of its
+/// name. \retval false  \a why says why, with similar names
 bool find_object(const std::string& word, const describe::Description& description, ObjectReference& found,
                  std::string& why);
 
