@@ -243,13 +243,50 @@ TEST_CASE("lexican: a bus that cannot be opened is a bus fault, a wrong rate is 
   }
   CHECK(run({"scan", "-i", "slcan:/dev/null", "--rate", "77k"}).status == 2);
   check(run({"mon", "-i", "replay:/nonexistent.log"}), 2, "", "lexican: /nonexistent.log: No such file or directory\n");
-  CHECK(run({"nmt", "start", "5", "-i", "hub:"}).status == 4);
-  CHECK(run({"mon", "-i", "socketcand:nowhere"}).status == 4);
+  const std::string hub = "lexican: the name of a hub has 1 to 40 letters, digits, - and _\n";
+  const std::string socketcand = "lexican: socketcand needs HOST:PORT/BUS, such as 127.0.0.1:29536/can0\n";
+  const std::string slcan = "lexican: slcan needs a device, such as /dev/ttyACM0\n";
+  for (const auto& [name, message] : std::vector<std::pair<std::string, std::string>>{
+           {"hub:", hub},
+           {"hub:a b", hub},
+           {"hub:../x", hub},
+           {"hub:@500k", hub},
+           {"hub:x@5", "lexican: the bit rate of a hub is 10k to 1M\n"},
+           {"socketcand:nowhere", socketcand},
+           {"socketcand:nowhere:29536", socketcand},
+           {"socketcand:nowhere/can0", socketcand},
+           {"slcan:", slcan},
+           {"slcan:@500k", slcan},
+           {"slcan-tcp:nowhere@500k", "lexican: 'nowhere' is not HOST:PORT, such as 127.0.0.1:29537 or [::1]:29537\n"},
+           {"slcan-pty7", "lexican: slcan-pty has no further name: '7'\n"}}) {
+    CAPTURE(name);
+    check(run({"nmt", "start", "5", "-i", name}), 2, "", message);
+    check(run({"mon", "-i", name}), 2, "", message);
+  }
   for (const char* rate : {"fast", "0", "2M", "500kk", "-5"}) {
     CAPTURE(rate);
     check(run({"scan", "-i", "hub:x", "--rate", rate}), 2, "",
           std::string("lexican: '") + rate + "' is no bit rate; write 500k, 1M or 500000\n");
   }
+}
+
+TEST_CASE("lexican: a bit rate that --rate cannot set, or that contradicts the name, is wrong use") {
+  const Bench bench{5};
+  for (const std::string name : {"slcan:/dev/null@250k", "slcan-tcp:127.0.0.1:1@250k", "hub:x@250k"}) {
+    CAPTURE(name);
+    const std::string message = "lexican: " + name + " and --rate 500k are different bit rates; give one of them\n";
+    check(bench.run("scan", {"-i", name, "--rate", "500k"}), 2, "", message);
+    check(bench.run("mon", {"-i", name, "--rate", "500k"}), 2, "", message);
+  }
+  check(bench.run("read", {"5", "1008", "--rate", "500k"}), 2, "",
+        "lexican: " + bench.hub() +
+            " has no bit rate that --rate could set: hub:NAME@500k starts a hub with the timing of a wire\n");
+  check(bench.run("read", {"5", "1008", "--rate", "500k", "-i", "socketcand:127.0.0.1:1/can0"}), 2, "",
+        "lexican: socketcand:127.0.0.1:1/can0 has no bit rate that --rate could set: it is set where the server runs, "
+        "ip link set can0 up type can bitrate 500000\n");
+  CHECK(run({"scan", "-i", "slcan:/nonexistent@500k", "--rate", "500000"}).status == 4);
+  const Bench paced;
+  CHECK(paced.run("nmt", {"start", "all", "-i", paced.hub() + "@500k", "--rate", "500k"}).status == 0);
 }
 
 TEST_CASE("lexican read: a wrong node is wrong use, a silent one is no answer") {
@@ -710,7 +747,7 @@ TEST_CASE("lexican nmt: the state of a device without heartbeat is unknown") {
   check(bench.run("nmt", {"start", "5", "--timeout", "500"}), 0, "",
         "lexican: sent; node 5 has sent no heartbeat, so its state is unknown; lexican write 5 1017 1000 switches it "
         "on\n");
-  check(bench.run("nmt", {"stop", "5", "--timeout", "50"}), 0, "",
+  check(bench.run("nmt", {"stop", "5", "--timeout", "500"}), 0, "",
         "lexican: sent; node 5 has sent no heartbeat, so its state is unknown\n");
   for (const char* unseen : {"5", "9"}) {  // node 5 is stopped now
     CAPTURE(unseen);

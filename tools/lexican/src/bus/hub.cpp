@@ -296,12 +296,32 @@ void run_hub(HubServer& server) {
   }
 }
 
-std::string hub_path(const std::string& name, std::string& why) {
-  const bool is_valid = !name.empty() && name.size() <= 40 && std::all_of(name.begin(), name.end(), [](char c) {
+namespace {
+
+bool is_hub_name(const std::string& name) {
+  return !name.empty() && name.size() <= 40 && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_';
   });
-  if (!is_valid) {
-    why = "the name of a hub has 1 to 40 letters, digits, - and _";
+}
+
+constexpr const char* wrong_hub_name = "the name of a hub has 1 to 40 letters, digits, - and _";
+
+}  // namespace
+
+std::string hub_name_fault(std::string& name, BusOptions& options) {
+  std::string why;
+  if (!split_rate(name, options, why)) {
+    return why;
+  }
+  if (options.bit_rate != 0 && (options.bit_rate < lowest_rate || options.bit_rate > highest_rate)) {
+    return "the bit rate of a hub is 10k to 1M";
+  }
+  return is_hub_name(name) ? "" : wrong_hub_name;
+}
+
+std::string hub_path(const std::string& name, std::string& why) {
+  if (!is_hub_name(name)) {
+    why = wrong_hub_name;
     return {};
   }
   const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
@@ -311,13 +331,9 @@ std::string hub_path(const std::string& name, std::string& why) {
 }
 
 std::unique_ptr<Bus> open_hub(std::string name, std::string& why) {
-  why.clear();
   BusOptions options;
-  if (!split_rate(name, options, why)) {
-    return nullptr;
-  }
-  if (options.bit_rate != 0 && (options.bit_rate < lowest_rate || options.bit_rate > highest_rate)) {
-    why = "the bit rate of a hub is 10k to 1M";
+  why = hub_name_fault(name, options);
+  if (!why.empty()) {
     return nullptr;
   }
   const std::string path = hub_path(name, why);

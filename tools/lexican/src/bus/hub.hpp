@@ -104,6 +104,9 @@ void run_hub(HubServer& server);
 /// \retval empty  the name is not valid, or the directory is not safe; \a why says so
 std::string hub_path(const std::string& name, std::string& why);
 
+/// Returns the fault of NAME or NAME@RATE; empty: it has none. Separates the rate.
+std::string hub_name_fault(std::string& name, BusOptions& options);
+
 /// Opens NAME or NAME@RATE. Starts its server in a process if there is none. Waits at most a second for its greeting.
 /// \retval null  \a why says why, such as a hub of another rate
 std::unique_ptr<Bus> open_hub(std::string name, std::string& why);

@@ -64,24 +64,66 @@ bool split_rate(std::string& name, BusOptions& options, std::string& why) {
   return true;
 }
 
+namespace {
+
+bool is_no_interface(const std::string& name) { return name.find_first_of(":/") != std::string::npos; }
+
+bool is_without_device(const std::string& name) { return name.empty() || name.front() == '@'; }
+
+/// Returns true if an interface can be opened, but not with this bit rate.
+bool has_another_rate(const std::string& name, const BusOptions& options) {
+  std::string why;
+  return options.bit_rate != 0 && open_socketcan(name, {}, why) != nullptr;
+}
+
+/// Returns true if the end of HOST:PORT[@RATE] is no port.
+bool has_wrong_port(const std::string& name) {
+  const std::string address = name.substr(0, name.rfind('@'));
+  const std::size_t colon = address.rfind(':');
+  std::uint16_t port = 0;
+  return colon == std::string::npos || colon == 0 || !parse_number(std::string_view(address).substr(colon + 1), port) ||
+         port == 0;
+}
+
+}  // namespace
+
 const std::vector<BusKind> bus_kinds = {
     {"hub:", "hub:bench", "a simulated bus between programs on this machine; hub:bench@500k: with the timing of a wire",
      false,
      [](const std::string& name, const BusOptions& /*options*/, std::string& why) { return open_hub(name, why); },
-     nullptr},
+     [](const std::string& name, const BusOptions& /*options*/) {
+       std::string hub = name;
+       BusOptions options;
+       return !hub_name_fault(hub, options).empty();
+     },
+     "hub:NAME@500k starts a hub with the timing of a wire"},
     {"replay:", "replay:FILE", "a log of candump, pcapng, pcap or ASC; - for standard input", false, open_replay,
      [](const std::string& /*name*/, const BusOptions& /*options*/) { return true; }},
     {"socketcand:", "socketcand:HOST:29536/can0", "a CAN interface of another machine that runs socketcand", false,
-     connect_to_socketcand, nullptr},
-    {"slcan:", "slcan:/dev/ttyACM0@500k", "a serial or USB adapter", true, open_slcan, has_wrong_slcan_rate},
-    {"slcan-tcp:", "slcan-tcp:192.168.0.7:29537", "an slcan adapter behind TCP", true, open_slcan_tcp,
-     has_wrong_slcan_rate},
-    {"slcan-pty", "slcan-pty", "a pseudo-terminal that another program opens as its slcan adapter", false,
-     open_slcan_pty, nullptr},
-    {"", "can0", "a CAN interface of Linux", false, open_socketcan,
-     [](const std::string& name, const BusOptions& /*options*/) {
-       return name.find_first_of(":/") != std::string::npos;
+     connect_to_socketcand, has_wrong_socketcand_name,
+     "it is set where the server runs, ip link set can0 up type can bitrate 500000"},
+    {"slcan:", "slcan:/dev/ttyACM0@500k", "a serial or USB adapter", true,
+     [](const std::string& name, const BusOptions& options, std::string& why) -> std::unique_ptr<Bus> {
+       if (is_without_device(name)) {
+         why = "slcan needs a device, such as /dev/ttyACM0";
+         return nullptr;
+       }
+       return open_slcan(name, options, why);
+     },
+     [](const std::string& name, const BusOptions& options) {
+       return is_without_device(name) || has_wrong_slcan_rate(name, options);
      }},
+    {"slcan-tcp:", "slcan-tcp:192.168.0.7:29537", "an slcan adapter behind TCP", true, open_slcan_tcp,
+     [](const std::string& name, const BusOptions& options) {
+       return has_wrong_port(name) || has_wrong_slcan_rate(name, options);
+     }},
+    {"slcan-pty", "slcan-pty", "a pseudo-terminal that another program opens as its slcan adapter", false,
+     open_slcan_pty, [](const std::string& name, const BusOptions& /*options*/) { return !name.empty(); }},
+    {"", "can0", "a CAN interface of Linux", false, open_socketcan,
+     [](const std::string& name, const BusOptions& options) {
+       return is_no_interface(name) || has_another_rate(name, options);
+     },
+     "ip link set can0 up type can bitrate 500000"},
 };
 
 namespace {
@@ -97,7 +139,7 @@ const BusKind& kind_of(const std::string& name) {
 
 std::unique_ptr<Bus> open_bus(const std::string& name, const BusOptions& options, std::string& why) {
   const BusKind& kind = kind_of(name);
-  if (kind.prefix[0] == '\0' && kind.is_wrong(name, options)) {
+  if (kind.prefix[0] == '\0' && is_no_interface(name)) {
     why = "'" + name + "' is no bus, which is one of:";
     for (const BusKind& each : bus_kinds) {
       why += std::string("\n  ") + each.example;
@@ -110,6 +152,27 @@ std::unique_ptr<Bus> open_bus(const std::string& name, const BusOptions& options
 
 bool needs_rate(const std::string& name, const BusOptions& options) {
   return kind_of(name).has_rate && options.bit_rate == 0 && name.find('@') == std::string::npos;
+}
+
+std::string rate_fault(const std::string& name, const BusOptions& options) {
+  const BusKind& kind = kind_of(name);
+  std::string address = name;
+  BusOptions of_name;
+  std::string why;
+  const bool has_own =
+      (kind.has_rate || kind.rate_setting != nullptr) && split_rate(address, of_name, why) && of_name.bit_rate != 0;
+  if (options.bit_rate == 0 || (has_own && of_name.bit_rate == options.bit_rate)) {
+    return {};
+  }
+  if (has_own) {
+    const bool is_round = options.bit_rate % 1000 == 0;
+    return name + " and --rate " + std::to_string(options.bit_rate / (is_round ? 1000 : 1)) + (is_round ? "k" : "") +
+           " are different bit rates; give one of them";
+  }
+  const bool is_interface = kind.prefix[0] == '\0';  // it is compared with the rate of the interface
+  return kind.rate_setting == nullptr || is_interface || options.listens_only
+             ? std::string()
+             : name + " has no bit rate that --rate could set: " + kind.rate_setting;
 }
 
 bool is_wrong_name(const std::string& name, const BusOptions& options) {

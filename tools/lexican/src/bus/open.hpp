@@ -17,6 +17,9 @@ struct BusKind {
   std::unique_ptr<Bus> (*open)(const std::string& name, const BusOptions& options, std::string& why);
   /// Returns true if open() fails because of the name or \a options, not because of the bus. Null: never.
   bool (*is_wrong)(const std::string& name, const BusOptions& options);
+  /// How the bit rate is set of a kind for which BusOptions::bit_rate does not set it; null: it does, or the kind has
+  /// none.
+  const char* rate_setting = nullptr;
 };
 
 /// The kinds. The last one has an empty prefix.
@@ -29,8 +32,13 @@ std::unique_ptr<Bus> open_bus(const std::string& name, const BusOptions& options
 /// Returns true if the bus is an adapter whose bit rate neither its name nor \a options has.
 bool needs_rate(const std::string& name, const BusOptions& options);
 
-/// Returns true if open_bus() fails because of the name or \a options, not because of the bus: an unknown kind, a bit
-/// rate that the kind does not have, or a log that cannot be read.
+/// Returns the fault of a bit rate that the user gives beside a name: the name has another one, or, unless
+/// \a options listens only, the rate of the bus is set in another way. Empty: there is none.
+std::string rate_fault(const std::string& name, const BusOptions& options);
+
+/// Returns true if open_bus() fails because of the name or \a options, not because of the bus: an unknown kind, a
+/// name that the kind does not have, a bit rate that the kind or the interface does not have, or a log that cannot be
+/// read.
 bool is_wrong_name(const std::string& name, const BusOptions& options);
 
 /// Separates the rate from NAME@RATE. A rate in \a options has precedence.
@@ -52,6 +60,9 @@ std::unique_ptr<Bus> open_replay(const std::string& file, const BusOptions& opti
 /// know them; lost() also counts frames of the server that are malformed. An error message of the server ends the
 /// connection. \retval null  \a why says why
 std::unique_ptr<Bus> connect_to_socketcand(const std::string& name, const BusOptions& options, std::string& why);
+
+/// Returns true if a name is not HOST:PORT/BUS.
+bool has_wrong_socketcand_name(const std::string& name, const BusOptions& options);
 
 /// Opens a serial device or a Unix socket with an slcan adapter, DEV[@RATE]. Sends C, S0 to S8 (if there is a rate),
 /// and O or L. \retval null  \a why says why

@@ -48,32 +48,38 @@ class SocketcandBus : public Bus {
   SocketcandBus(const SocketcandBus&) = delete;
   SocketcandBus& operator=(const SocketcandBus&) = delete;
 
-  /// Parses HOST:PORT/BUS, and looks up the host.
-  bool find(const std::string& name, std::string& why) {
+  /// Parses HOST:PORT/BUS.
+  /// \retval false  it is none
+  bool parse(const std::string& name) {
     const std::size_t slash = std::min(name.rfind('/'), name.size());
     const std::string_view address = std::string_view(name).substr(0, slash);
     const std::size_t colon = std::min(address.rfind(':'), address.size());
     std::string_view host = address.substr(0, colon);
-    std::uint16_t port = 0;
     if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
       host = host.substr(1, host.size() - 2);
     }
     bus_ = name.substr(std::min(slash + 1, name.size()));
     const bool is_bus = !bus_.empty() && bus_.size() <= 16 && channel_name(bus_) == bus_ &&
                         bus_.find_first_of("<>") == std::string::npos;
-    if (host.empty() || colon == address.size() || !parse_number(address.substr(colon + 1), port) || port == 0 ||
-        !is_bus) {
+    address_ = address;
+    host_ = host;
+    return is_bus && !host.empty() && colon != address.size() && parse_number(address.substr(colon + 1), port_) &&
+           port_ != 0;
+  }
+
+  /// Parses HOST:PORT/BUS, and looks up the host.
+  bool find(const std::string& name, std::string& why) {
+    if (!parse(name)) {
       why = "socketcand needs HOST:PORT/BUS, such as 127.0.0.1:29536/can0";
       return false;
     }
-    address_ = address;
     addrinfo form{};
     form.ai_flags = AI_NUMERICSERV;
     form.ai_socktype = SOCK_STREAM;
     addrinfo* found = nullptr;
-    const int error = getaddrinfo(std::string(host).c_str(), std::to_string(port).c_str(), &form, &found);
+    const int error = getaddrinfo(host_.c_str(), std::to_string(port_).c_str(), &form, &found);
     if (error != 0) {
-      why = std::string(host) + ": " + gai_strerror(error);
+      why = host_ + ": " + gai_strerror(error);
       return false;
     }
     found_.reset(found);
@@ -235,6 +241,8 @@ class SocketcandBus : public Bus {
   };
 
   std::string address_;  // HOST:PORT
+  std::string host_;
+  std::uint16_t port_ = 0;
   std::string bus_;
   std::unique_ptr<addrinfo, Free> found_;
   int fd_ = -1;
@@ -245,6 +253,10 @@ class SocketcandBus : public Bus {
 };
 
 }  // namespace
+
+bool has_wrong_socketcand_name(const std::string& name, const BusOptions& /*options*/) {
+  return !SocketcandBus().parse(name);
+}
 
 std::unique_ptr<Bus> connect_to_socketcand(const std::string& name, const BusOptions& /*options*/, std::string& why) {
   auto bus = std::make_unique<SocketcandBus>();

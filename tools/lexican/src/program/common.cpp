@@ -115,6 +115,11 @@ std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only,
     print_message("'" + common.rate + "' is no bit rate; write 500k, 1M or 500000");
     return nullptr;
   }
+  const std::string fault = host_bus::rate_fault(name, options);
+  if (!fault.empty()) {
+    print_message(fault);
+    return nullptr;
+  }
   const bool is_unknown = host_bus::needs_rate(name, options);
   if (is_unknown) {
     options = {0, true, false};
