@@ -19,7 +19,7 @@ constexpr const char* red = "\033[1;31m";
 constexpr const char* yellow = "\033[33m";
 constexpr const char* cyan = "\033[36m";
 constexpr const char* grey = "\033[90m";
-constexpr const char* reset = "\033[0m";
+constexpr const char* reset_colour = "\033[0m";
 constexpr const char* erase_line = "\r\033[K";
 
 std::string identifier(const CO_IF_FRM& frame) {
@@ -47,7 +47,7 @@ void View::print_row(const Row& row) {
   const bool coloured = style_.colours && *row.colour != '\0';
   out_ << (bar_shown_ ? erase_line : "");
   bar_shown_ = false;
-  out_ << (coloured ? row.colour : "") << row.text << (coloured ? reset : "") << std::endl;
+  out_ << (coloured ? row.colour : "") << row.text << (coloured ? reset_colour : "") << std::endl;
 }
 
 void View::line(const std::string& text) {
