@@ -826,6 +826,17 @@ TEST_CASE("lexican scan: devices with state, profile, identity and name") {
   CHECK(fault_of(json.out, "scan") == "");
 }
 
+TEST_CASE("lexican scan: the bus load is shown if the bit rate is known") {
+  Bench bench;
+  Process device({LEXICAN_TEST_DEVICE, bench.hub() + "@500k", "5", "usual"}, bench.environment());
+  device.wait_for("ready");
+  const Ran ran = bench.run("scan", {"--timeout", "100"});
+  std::smatch found;
+  REQUIRE(std::regex_search(ran.out, found, std::regex("\n1 node in [0-9.]+ s, bus load ([0-9]+\\.[0-9]) %\n")));
+  CHECK(std::stod(found[1]) > 0);
+  CHECK(std::stod(found[1]) < 10);
+}
+
 TEST_CASE("lexican scan: a device without node-ID has a line") {
   const Bench bench{255};
   const Ran ran = bench.run("scan", {"--timeout", "160"});

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "frame_bits.hpp"
+
 namespace lexican {
 
 const CO_IF_CAN_DRV_EX BusHost::driver = {
@@ -30,16 +32,23 @@ std::int16_t BusHost::End::read(CO_IF_FRM& frame) {
     return is_lost() ? std::int16_t{-1} : std::int16_t{0};
   }
   frame = entry->frame;
+  count(frame);
   return sizeof frame;
 }
 
-std::int16_t BusHost::End::send(const CO_IF_FRM& frame) const {
+void BusHost::End::count(const CO_IF_FRM& frame) {
+  const bool is_error = (frame.Identifier & CO_IF_FRM_ERROR) != 0;
+  bits += is_error ? 0 : co::frame_bits(frame) + co::intermission_bits;
+}
+
+std::int16_t BusHost::End::send(const CO_IF_FRM& frame) {
   constexpr std::uint32_t error_control = 0x700;
   const bool is_own_state = (frame.Identifier & ~std::uint32_t{0x7F}) == error_control;
   if (is_own_state && role == Role::client) {
     return sizeof frame;
   }
   if (bus.send(frame)) {
+    count(frame);
     return sizeof frame;
   }
   const bool is_broken = is_lost() || (role != Role::client && !bus.fault().empty());  // also an interface that is down

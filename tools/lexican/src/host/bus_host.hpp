@@ -28,6 +28,8 @@ class BusHost : public Host {
   Timer master_timer() override { return {&co::LinuxTimerDriver, &master_timer_}; }
   std::string bus_fault() override;
   std::uint32_t lost_frames() override;
+  /// Returns the bits of the frames received and sent, on a wire, with stuff bits and intermissions.
+  std::uint64_t bits() const { return device_.bits + master_.bits; }
   bool bus_lost() override { return device_.is_lost() || master_.is_lost(); }
   Micros now() override { return co::monotonic_ns() / 1000; }
   void wait(Micros time) override;
@@ -38,10 +40,12 @@ class BusHost : public Host {
   struct End {
     bool is_lost() const { return bus.wanted().fd < 0; }
     std::int16_t read(CO_IF_FRM& frame);
-    std::int16_t send(const CO_IF_FRM& frame) const;
+    std::int16_t send(const CO_IF_FRM& frame);
+    void count(const CO_IF_FRM& frame);
 
     host_bus::Bus& bus;
     Role role;
+    std::uint64_t bits = 0;
     bool may_have_frames = false;  // the bus may have received more frames than were read; poll() does not report them
   };
   static const CO_IF_CAN_DRV_EX driver;

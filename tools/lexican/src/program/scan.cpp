@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "describe/monitor.hpp"
 #include "host/bus_host.hpp"
 #include "program/identity.hpp"
 #include "program/search.hpp"
@@ -159,6 +160,15 @@ int report_silence(const host_bus::Bus& bus, const HostLine& line) {
   return no_answer;
 }
 
+/// Returns ", bus load 1.2 %" during the search; nothing if the bit rate is unknown.
+std::string load_text(const BusHost& host, std::uint32_t bit_rate, Micros begin, Micros end) {
+  describe::Statistics numbers;
+  numbers.first = begin;
+  numbers.last = end;
+  numbers.bits = host.bits();
+  return bit_rate == 0 ? std::string() : fmt::format(", bus load {:.1f} %", numbers.load(bit_rate));
+}
+
 int run_scan(const ScanOptions& options) {
   int status = ok;
   const std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
@@ -170,6 +180,8 @@ int run_scan(const ScanOptions& options) {
   HostLine line(host);
   const Micros begin = host.now();
   const Devices found = find_devices(host, line, options.common.timeout);
+  const Micros end = host.now();
+  const std::string load = load_text(host, bus->bit_rate(), begin, end);
   if (Interruption::happened()) {
     print_message("interrupted");
     return interrupted;
@@ -198,7 +210,7 @@ int run_scan(const ScanOptions& options) {
   if (!found.unconfigured.empty()) {
     print(fmt::format(" and {} without node-ID", found.unconfigured.size()));
   }
-  print(fmt::format(" in {:.1f} s\n", static_cast<double>(host.now() - begin) / 1e6));
+  print(fmt::format(" in {:.1f} s{}\n", static_cast<double>(end - begin) / 1e6, load));
   return ok;
 }
 
