@@ -196,8 +196,12 @@ TEST_CASE("lexican: completion has the first line of an option's help") {
 TEST_CASE("lexican: an unknown verb is refused with the nearest one") {
   check(run({"scna"}), 2, "", "lexican: unknown verb scna; did you mean scan?\n");
   check(run({"frobnicate"}), 2, "", "lexican: unknown verb frobnicate; lexican --help lists all\n");
+  CHECK(has(run({"--nonsense"}).err, "lexican: "));
   CHECK(run({"--nonsense"}).status == 2);
-  CHECK(run({"scan", "--nonsense"}).status == 2);
+  check(run({"scan", "--nonsense"}), 2, "",
+        "lexican: The following argument was not expected: --nonsense; lexican scan --help shows the options\n");
+  check(run({"scan", "--timeout", "0"}), 2, "",
+        "lexican: --timeout: Value 0 not in range 1 to 3600000; lexican scan --help shows the options\n");
   CHECK(run({"read", "5"}).status == 2);
   CHECK(run({"nmt", "jump", "5"}).status == 2);
 }

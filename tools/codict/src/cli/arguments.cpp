@@ -33,6 +33,17 @@ std::string unknown_command(const CLI::App& app) {
   return has_none && words.front().substr(0, 1) != "-" ? words.front() : "";
 }
 
+// Returns the message of a fault in the arguments, of which CLI11 writes some as sentences and some with a line end.
+std::string fault_text(const CLI::App* app, const CLI::Error& error) {
+  std::string text = error.what();
+  while (!text.empty() && (text.back() == '\n' || text.back() == '.')) {
+    text.pop_back();
+  }
+  const std::vector<CLI::App*> commands = app->get_subcommands();
+  const std::string command = commands.empty() ? "" : ' ' + commands.front()->get_name();
+  return app->get_name() + ": " + text + "; " + app->get_name() + command + " --help shows the options\n";
+}
+
 OptionText text_of(const Grammar& grammar, const CLI::Option& option) {
   OptionText text;
   text.short_names = option.get_snames();
@@ -160,6 +171,7 @@ CommandLine::CommandLine(const std::string& name, const std::string& help, const
   grammar_->app.set_version_flag("--version", version);
   grammar_->app.require_subcommand(1);
   grammar_->app.footer(footer);
+  grammar_->app.failure_message(fault_text);
 }
 
 CommandLine::~CommandLine() = default;
