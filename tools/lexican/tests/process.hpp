@@ -26,12 +26,13 @@ struct Ran {
   std::string err;
 };
 
-/// A child that ends with the test. Waits at most a minute for each output.
+/// A child that ends with the test. Waits at most a minute for each output. \a input, \a error: descriptors of its
+/// standard input and standard error output; -1: none, and a pipe.
 class Process {
  public:
   using Environment = std::map<std::string, std::string>;  // an empty text removes the variable
 
-  Process(const std::vector<std::string>& words, const Environment& environment, int input = -1) {
+  Process(const std::vector<std::string>& words, const Environment& environment, int input = -1, int error = -1) {
     std::array<int, 2> out{};
     std::array<int, 2> err{};
     std::array<int, 2> start{};  // closed when the program starts, which resets the handlers of signals
@@ -42,7 +43,7 @@ class Process {
     REQUIRE(pid_ >= 0);
     if (pid_ == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
-      run(words, environment, input, out[1], err[1]);
+      run(words, environment, input, out[1], error >= 0 ? error : err[1]);
     }
     close(out[1]);
     close(err[1]);

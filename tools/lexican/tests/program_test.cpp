@@ -806,6 +806,70 @@ TEST_CASE("lexican nmt: a reset, and a command to all, on a physical bus need --
   CHECK(bench.run("nmt", {"start", "5", "-i", "slcan-pty", "--timeout", "50"}).status != 2);
 }
 
+namespace {
+
+/// A pseudo-terminal as the standard input and standard error output of a program.
+class Terminal {
+ public:
+  Terminal() : master_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+    REQUIRE(master_ >= 0);
+    REQUIRE(grantpt(master_) == 0);
+    REQUIRE(unlockpt(master_) == 0);
+    slave_ = open(ptsname(master_), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    REQUIRE(slave_ >= 0);
+  }
+  ~Terminal() {
+    close(master_);
+    close(slave_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  int slave() const { return slave_; }
+  /// Returns what it shows up to a text, for which it waits at most a minute.
+  std::string wait_for(const std::string& text) {
+    std::string shown;
+    while (!has(shown, text)) {
+      char c = 0;
+      pollfd wanted{master_, POLLIN, 0};
+      constexpr int minute = 60'000;
+      REQUIRE_MESSAGE((poll(&wanted, 1, minute) == 1 && read(master_, &c, 1) == 1), shown);
+      shown += c;
+    }
+    return shown;
+  }
+
+ private:
+  int master_;
+  int slave_ = -1;
+};
+
+}  // namespace
+
+TEST_CASE("lexican: Ctrl-C at a question ends with 130, and nothing is sent") {
+  Bench bench;
+  bench.add(5, "eds=" + eds);
+  struct Asked {
+    const char* verb;
+    Words words;
+    const char* message;
+  };
+  for (const Asked& asked :
+       {Asked{"read", {"5", "position"}, "\nlexican: interrupted\r\n"},
+        Asked{"scan", {"--timeout", "200"}, "\nlexican: interrupted\r\n"},
+        Asked{"nmt", {"reset", "5", "-i", "slcan-pty"}, "\nlexican: interrupted; nothing was sent\r\n"}}) {
+    CAPTURE(asked.verb);
+    Terminal terminal;
+    Process process(bench.line(asked.verb, asked.words), bench.environment(), terminal.slave(), terminal.slave());
+    terminal.wait_for("[y/N] ");
+    process.send(SIGINT);
+    terminal.wait_for(asked.message);
+    const Ran ran = process.finish();
+    CHECK(ran.status == 130);
+    CHECK(ran.out == "");
+  }
+  CHECK(!std::filesystem::exists(bench.directory / "lexican/eds"));
+}
+
 TEST_CASE("lexican scan: devices with state, profile, identity and name") {
   Bench bench{5, 127};
   bench.add(12, "silent");

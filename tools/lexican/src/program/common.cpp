@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <charconv>
@@ -188,6 +190,17 @@ std::string state_text(std::uint8_t state) {
 
 bool is_confirmed(const std::string& question) {
   fmt::print(stderr, "{} [y/N] ", question);
+  sigset_t while_waiting;
+  sigprocmask(SIG_BLOCK, nullptr, &while_waiting);
+  sigdelset(&while_waiting, SIGINT);
+  sigdelset(&while_waiting, SIGTERM);
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  while (ppoll(&input, 1, nullptr, &while_waiting) < 0 && !Interruption::happened()) {
+  }
+  if (Interruption::happened()) {
+    fmt::print(stderr, "\n");
+    return false;
+  }
   char answer[16] = "";
   return std::fgets(answer, sizeof answer, stdin) != nullptr && (answer[0] == 'y' || answer[0] == 'Y');
 }

@@ -53,6 +53,9 @@ std::optional<describe::Known> upload_description(SdoClient& sdo, std::uint8_t n
   const Transfer eds =
       sdo.upload(store_eds, 0, {largest_eds, common.timeout, [&](const Amount& amount) { progress.update(amount); }});
   progress.end();
+  if (Interruption::happened()) {
+    return std::nullopt;
+  }
   std::string why = eds.done() ? std::string() : eds.outcome();
   std::optional<describe::Known> known;
   if (eds.done()) {

@@ -169,9 +169,10 @@ int run_nmt(const NmtOptions& options) {
       print_message("this command changes a physical bus: confirm it by --yes");
       return usage;
     }
+    const Interruption interruption;
     if (!is_confirmed(fmt::format("{} {} on a physical bus?", chosen->name, options.node))) {
-      print_message("nothing was sent");
-      return usage;
+      print_message(Interruption::happened() ? "interrupted; nothing was sent" : "nothing was sent");
+      return Interruption::happened() ? interrupted : usage;
     }
   }
   Session session(std::move(bus), is_all ? std::uint8_t{127} : node);

@@ -287,6 +287,10 @@ int find_in_device(Session& session, const TransferOptions& options, Target& tar
     if (!known && !is_known) {
       known = upload_description(session.sdo(), target.node, *identity, options.common);
     }
+    if (session.is_interrupted()) {
+      print_message("interrupted");
+      return interrupted;
+    }
   }
   if (known) {
     target.network.describe(target.node, std::move(known->description));

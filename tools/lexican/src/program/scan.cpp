@@ -197,6 +197,10 @@ int run_scan(const ScanOptions& options) {
     return report_silence(*bus, line);
   }
   const Files files = find_files(found, host, options.common);
+  if (Interruption::happened()) {
+    print_message("interrupted");
+    return interrupted;
+  }
   if (options.common.is_json) {
     for (const Device& device : found.devices) {
       print_json_device(device, files);

@@ -77,8 +77,9 @@ std::uint8_t node_of(std::string_view text);
 /// Returns the name of an NMT state as error control shows it; 0 is the boot-up message.
 std::string state_text(std::uint8_t state);
 
-/// Asks on the terminal.
-/// \retval true  the answer is yes
+/// Asks on the terminal. An Interruption must exist, and ends the question.
+/// \retval true   the answer is yes
+/// \retval false  it is another, or Interruption::happened()
 bool is_confirmed(const std::string& question);
 
 /// Prints "lexican: text" on the standard error output, control characters as question marks.
