@@ -700,9 +700,44 @@ TEST_CASE("lexican read, write: --json") {
         "\n",
         "");
   CHECK(fault_of(write.out, "write") == "");
-  check(bench.run("read", {"5", "3000", "--json"}), 1, "",
-        "lexican: node 5, 3000h:00: aborted with 0602 0000h object does not exist; the manual or the EDS of the device "
-        "lists its objects\n");
+  const std::string fault =
+      "node 5, 3000h:00: aborted with 0602 0000h object does not exist; the manual or the EDS of the device lists its "
+      "objects";
+  check(bench.run("read", {"5", "3000", "--json"}), 1, R"({"error":")" + fault + "\",\"status\":1}\n",
+        "lexican: " + fault + '\n');
+}
+
+TEST_CASE("lexican: with --json, a command that fails prints an error") {
+  const Bench bench{5};
+  const std::string empty = bench.directory / "empty.log";
+  write_bytes(empty, "");
+  struct Failing {
+    const char* verb;
+    Words words;
+    int status;
+  };
+  for (const Failing& failing :
+       {Failing{"read", {"five", "1000"}, 2}, Failing{"read", {"9", "1000", "--timeout", "50"}, 3},
+        Failing{"write", {"5", "1000", "1"}, 1}, Failing{"write", {"5", "2000", "256", "--eds", eds}, 2},
+        Failing{"scan", {"-i", "slcan:/nonexistent@500k"}, 4}, Failing{"nmt", {"start", "200"}, 2},
+        Failing{"mon", {"/nonexistent.log"}, 2}, Failing{"share", {"--name", "a b"}, 2},
+        Failing{"scan", {"-i", bench.hub() + "x", "--timeout", "10"}, 3}}) {
+    CAPTURE(failing.verb);
+    CAPTURE(failing.status);
+    Words words = failing.words;
+    words.emplace_back("--json");
+    const Ran ran = bench.run(failing.verb, words);
+    CHECK(ran.status == failing.status);
+    REQUIRE(fault_of(ran.out, "error") == "");
+    const Json json = Json::parse(ran.out);
+    CHECK(json["status"] == failing.status);
+    CHECK(ran.err == "lexican: " + json["error"].get<std::string>() + '\n');
+  }
+  const Ran nmt = bench.run("nmt", {"start", "9", "--timeout", "50", "--json"});
+  REQUIRE(lines_of(nmt.out).size() == 2);
+  CHECK(lines_of(nmt.out)[0] == R"({"command":"start","done":false,"node":9})");
+  CHECK(Json::parse(lines_of(nmt.out)[1])["status"] == 3);
+  CHECK(run({"scan", "--json", "--nonsense"}).out == "");
 }
 
 TEST_CASE("lexican: the check of a JSON schema finds faults") {
@@ -716,6 +751,8 @@ TEST_CASE("lexican: the check of a JSON schema finds faults") {
   CHECK(schema.fault_of(Json::parse(R"({"command": "jump", "node": "5", "done": true})"), "nmt") != "");
   CHECK(schema.fault_of(Json::parse(R"({"command": "stop", "node": "", "done": true})"), "nmt") != "");
   CHECK(schema.fault_of(Json::parse(R"({"frames": 1})"), "mon") != "");
+  CHECK(schema.fault_of(Json::parse(R"({"error": "", "status": 1})"), "error") != "");
+  CHECK(schema.fault_of(Json::parse(R"({"error": "x", "status": 0})"), "error") != "");
 }
 
 TEST_CASE("lexican: a log, or a path, as the bus of a verb that sends") {

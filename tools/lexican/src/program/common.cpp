@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "program/rate.hpp"
 #include "program/verb.hpp"
@@ -62,7 +63,7 @@ constexpr unsigned listening_rounds = 3;  // 18 s
 int find_rate(host_bus::Bus& bus, const Common& common, bool listens_only) {
   const Interruption interruption;
   if (isatty(STDERR_FILENO) != 0) {
-    print_message("listening at each bit rate; --rate 500k gives it");
+    print_note("listening at each bit rate; --rate 500k gives it");
   }
   const auto listen = [&](bool acknowledges) {
     return listen_for_rate(bus, {0, true, acknowledges}, time_at_rate, listening_rounds, interruption);
@@ -93,8 +94,8 @@ int find_rate(host_bus::Bus& bus, const Common& common, bool listens_only) {
         "--ack acknowledges them");
     return no_answer;
   }
-  print_message(fmt::format("bit rate: {} kbit/s ({} valid {} in {:.1f} s)", heard.bit_rate / 1000, heard.frames,
-                            heard.frames == 1 ? "frame" : "frames", static_cast<double>(heard.time) / 1e6));
+  print_note(fmt::format("bit rate: {} kbit/s ({} valid {} in {:.1f} s)", heard.bit_rate / 1000, heard.frames,
+                         heard.frames == 1 ? "frame" : "frames", static_cast<double>(heard.time) / 1e6));
   bus.configure({heard.bit_rate, listens_only, common.acknowledges});
   return ok;
 }
@@ -134,7 +135,7 @@ std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only,
     return nullptr;
   }
   if (!bus->note().empty()) {
-    print_message(bus->note());
+    print_note(bus->note());
   }
   if (bus->log() != nullptr && !listens_only) {
     print_message(name + " is a log, which only lexican mon can use");
@@ -205,7 +206,41 @@ bool is_confirmed(const std::string& question) {
   return std::fgets(answer, sizeof answer, stdin) != nullptr && (answer[0] == 'y' || answer[0] == 'Y');
 }
 
-void print_message(std::string_view text) { fmt::print(stderr, "lexican: {}\n", printable(text)); }
+namespace {
+
+/// Messages of the verb, with line ends between them.
+std::string& fault_messages() {
+  static std::string text;
+  return text;
+}
+
+const char* status_text(int status) {
+  switch (status) {
+    case refused: return "refused";
+    case usage: return "wrong use";
+    case no_answer: return "no frame was received";
+    case bus_fault: return "bus fault";
+    default: return "interrupted";
+  }
+}
+
+}  // namespace
+
+void print_message(std::string_view text) {
+  print_note(text);
+  fault_messages() += (fault_messages().empty() ? "" : "\n") + std::string(text);
+}
+
+void print_note(std::string_view text) { fmt::print(stderr, "lexican: {}\n", printable(text)); }
+
+int finish(const Common& common, int status) {
+  if (common.is_json && status != ok) {
+    const std::string& text = fault_messages();
+    const nlohmann::json json = {{"error", text.empty() ? status_text(status) : text}, {"status", status}};
+    print(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+  }
+  return status;
+}
 
 void print(std::string_view text) {
   const std::string shown = printable(text);

@@ -62,7 +62,7 @@ std::optional<describe::Known> upload_description(SdoClient& sdo, std::uint8_t n
     known = describe::store_description(library, identity, {eds.data.begin(), eds.data.end()}, why);
   }
   if (!known) {
-    print_message(fmt::format("the description of node {} (1021h) is not used: {}", node, why));
+    print_note(fmt::format("the description of node {} (1021h) is not used: {}", node, why));
   }
   return known;
 }

@@ -218,7 +218,7 @@ class Mon {
     if (!known || files_[node] == known->file) {
       return false;
     }
-    print_message(fmt::format("node {} is described by {}", node, known->file));
+    print_note(fmt::format("node {} is described by {}", node, known->file));
     files_[node] = known->file;
     network_.describe(node, std::move(known->description));
     return true;
@@ -227,7 +227,7 @@ class Mon {
   /// Tries to open a lost bus again, and says when it is lost and when it is back.
   void reopen(host_bus::Bus& bus, Micros& last) {
     if (!is_lost_) {
-      print_message(bus.fault() + "; waiting for it");
+      print_note(bus.fault() + "; waiting for it");
       is_lost_ = true;
     }
     const Micros now = host_bus::clock_now(CLOCK_MONOTONIC);
@@ -236,7 +236,7 @@ class Mon {
     }
     last = now;
     if (bus.restore()) {
-      print_message("the bus is back");
+      print_note("the bus is back");
       is_lost_ = false;
     }
   }
@@ -394,7 +394,7 @@ Verb add_mon(CommandLine& line) {
       "  lexican mon -i can0 --service sdo,emcy --node 5\n"
       "  lexican mon -i can0 --log fault.pcapng\n"
       "  lexican mon fault.log --eds descriptions");
-  return {arguments, [options] { return run_mon(*options); }};
+  return {arguments, [options] { return program::finish(options->common, run_mon(*options)); }};
 }
 
 }  // namespace lexican::program

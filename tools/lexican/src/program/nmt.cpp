@@ -122,7 +122,7 @@ int report_state(Session& session, std::uint8_t node, const Command& command, co
     heartbeat = before ? *before : read_heartbeat_time(session, common.timeout);
     const std::uint32_t time = heartbeat.time.value_or(0);
     if (time != 0) {
-      print_message(fmt::format("waiting for the heartbeat of node {}, which it sends every {} ms", node, time));
+      print_note(fmt::format("waiting for the heartbeat of node {}, which it sends every {} ms", node, time));
       last = wait_for_state(session, node, command.state, (time + time / 2) * millisecond);
     }
   }
@@ -228,7 +228,7 @@ Verb add_nmt(CommandLine& line) {
       "Examples:\n"
       "  lexican nmt start 5 -i can0\n"
       "  lexican nmt reset all --yes -i can0");
-  return {arguments, [options] { return run_nmt(*options); }};
+  return {arguments, [options] { return finish(options->common, run_nmt(*options)); }};
 }
 
 }  // namespace lexican::program

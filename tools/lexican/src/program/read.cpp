@@ -129,7 +129,7 @@ Verb add_read(CommandLine& line) {
       "  lexican read 5 1018:4 -i can0\n"
       "  lexican read 5 \"velocity actual value\" -i can0 --eds drive.eds\n"
       "  lexican read 5 1021 -o drive.eds -i can0");
-  return {arguments, [options] { return run_read(*options); }};
+  return {arguments, [options] { return finish(options->common, run_read(*options)); }};
 }
 
 }  // namespace lexican::program

@@ -191,7 +191,7 @@ int run_scan(const ScanOptions& options) {
     return bus_fault;
   }
   if (!found.lss_fault.empty()) {
-    print_message("LSS: " + found.lss_fault);
+    print_note("LSS: " + found.lss_fault);
   }
   if (found.devices.empty() && found.unconfigured.empty()) {
     return report_silence(*bus, line);
@@ -230,7 +230,7 @@ Verb add_scan(CommandLine& line) {
       "  lexican scan -i can0\n"
       "  lexican scan -i slcan:/dev/ttyACM0@500k\n"
       "  lexican scan -i hub:demo --json");
-  return {arguments, [options] { return run_scan(*options); }};
+  return {arguments, [options] { return finish(options->common, run_scan(*options)); }};
 }
 
 }  // namespace lexican::program

@@ -140,14 +140,14 @@ class Share {
       return;
     }
     if (!is_lost_) {
-      print_message(adapter_->fault() + "; waiting for it");
+      print_note(adapter_->fault() + "; waiting for it");
       is_lost_ = true;
     }
     const Micros now = clock_now(CLOCK_MONOTONIC);
     if (now - reopened_ >= reopen_interval) {
       reopened_ = now;
       if (adapter_->restore()) {
-        print_message("the adapter is back");
+        print_note("the adapter is back");
         is_lost_ = false;
       }
     }
@@ -264,7 +264,7 @@ Verb add_share(CommandLine& line) {
       "Examples:\n"
       "  lexican share -i slcan:/dev/ttyACM0@500k\n"
       "  lexican share -i can0 --name bench --port 0 --slcan-port 0 --pty");
-  return {arguments, [options] { return run_share(*options); }};
+  return {arguments, [options] { return finish(options->common, run_share(*options)); }};
 }
 
 }  // namespace lexican::program

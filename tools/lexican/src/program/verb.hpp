@@ -82,8 +82,15 @@ std::string state_text(std::uint8_t state);
 /// \retval false  it is another, or Interruption::happened()
 bool is_confirmed(const std::string& question);
 
-/// Prints "lexican: text" on the standard error output, control characters as question marks.
+/// Prints "lexican: text" on the standard error output, control characters as question marks: why the verb fails, or a
+/// remedy.
 void print_message(std::string_view text);
+/// Like print_message(), for what is no fault of the verb.
+void print_note(std::string_view text);
+/// Ends a verb. With --json and a status that is not 0, prints {"error": TEXT, "status": STATUS}; the text is that of
+/// the messages.
+/// \retval status
+int finish(const Common& common, int status);
 /// Prints on the standard output, control characters but line ends as question marks.
 void print(std::string_view text);
 /// Prints a line in red.

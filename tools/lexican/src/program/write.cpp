@@ -166,7 +166,7 @@ Verb add_write(CommandLine& line) {
       "  lexican write 5 \"profile velocity\" 2000 --verify -i can0 --eds drive.eds\n"
       "  lexican write 5 1010:1 save -i can0\n"
       "  lexican write 5 1F50:1 --file firmware.bin -i can0");
-  return {arguments, [options, is_forced] { return run_write(*options, *is_forced); }};
+  return {arguments, [options, is_forced] { return finish(options->common, run_write(*options, *is_forced)); }};
 }
 
 }  // namespace lexican::program
