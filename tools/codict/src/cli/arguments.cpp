@@ -34,7 +34,7 @@ std::string unknown_command(const CLI::App& app) {
 }
 
 // Returns the message of a fault in the arguments, of which CLI11 writes some as sentences and some with a line end.
-std::string fault_text(const CLI::App* app, const CLI::Error& error) {
+std::string usage_fault_text(const CLI::App* app, const CLI::Error& error) {
   std::string text = error.what();
   while (!text.empty() && (text.back() == '\n' || text.back() == '.')) {
     text.pop_back();
@@ -171,7 +171,7 @@ CommandLine::CommandLine(const std::string& name, const std::string& help, const
   grammar_->app.set_version_flag("--version", version);
   grammar_->app.require_subcommand(1);
   grammar_->app.footer(footer);
-  grammar_->app.failure_message(fault_text);
+  grammar_->app.failure_message(usage_fault_text);
 }
 
 CommandLine::~CommandLine() = default;

@@ -11,7 +11,7 @@
 namespace lexican::program {
 namespace {
 
-constexpr std::uint8_t stopped = 0x04;
+constexpr std::uint8_t stopped_state = 0x04;
 
 struct Command {
   const char* name;
@@ -20,7 +20,7 @@ struct Command {
 };
 
 constexpr Command commands[] = {
-    {"start", CO_NMT_COMMAND_START, 0x05},          {"stop", CO_NMT_COMMAND_STOP, stopped},
+    {"start", CO_NMT_COMMAND_START, 0x05},          {"stop", CO_NMT_COMMAND_STOP, stopped_state},
     {"preop", CO_NMT_COMMAND_PREOP, 0x7F},          {"reset", CO_NMT_COMMAND_RESET_NODE, 0x00},
     {"reset-comm", CO_NMT_COMMAND_RESET_COM, 0x00},
 };
@@ -95,7 +95,7 @@ int report_unknown(std::uint8_t node, const Command& command, std::uint32_t time
     print_message(sent + fmt::format("boot-up message within {} ms", timeout));
     return no_answer;
   }
-  if (!heartbeat.is_answered && command.state == stopped) {
+  if (!heartbeat.is_answered && command.state == stopped_state) {
     print_message(sent + "heartbeat, and did not answer before: it is not there, or was stopped already");
     return no_answer;
   }
@@ -104,8 +104,8 @@ int report_unknown(std::uint8_t node, const Command& command, std::uint32_t time
     return no_answer;
   }
   print_message(sent + "heartbeat, so its state is unknown" +
-                (!heartbeat.time.has_value()                        ? ""
-                 : *heartbeat.time == 0 && command.state == stopped ? ""
+                (!heartbeat.time.has_value()                              ? ""
+                 : *heartbeat.time == 0 && command.state == stopped_state ? ""
                  : *heartbeat.time == 0 ? fmt::format("; lexican write {} 1017 1000 switches it on", node)
                                         : fmt::format(", although 1017h is {} ms", *heartbeat.time)));
   return ok;
@@ -178,7 +178,7 @@ int run_nmt(const NmtOptions& options) {
   Session session(std::move(bus), is_all ? std::uint8_t{127} : node);
   const Micros timeout = options.common.timeout * millisecond;
   std::optional<HeartbeatTime> before;
-  if (!is_all && chosen->state == stopped) {  // it answers no SDO afterwards
+  if (!is_all && chosen->state == stopped_state) {  // it answers no SDO afterwards
     before = read_heartbeat_time(session, options.common.timeout);
   }
   if (session.is_interrupted()) {
