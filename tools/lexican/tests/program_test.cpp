@@ -166,6 +166,7 @@ TEST_CASE("lexican: without arguments all verbs are listed") {
         "  share      Hand one adapter to many programs\n"
         "  completion Print what a shell needs to complete verbs and options\n"
         "  man        Print the manual page, for man -l or man1\n"
+        "  help       Show all verbs, or the options and examples of a verb\n"
         "\n"
         "lexican VERB --help shows options and examples. Begin with: lexican scan -i BUS\n",
         "");
@@ -185,6 +186,16 @@ TEST_CASE("lexican: the help of each verb has its options and examples") {
     CHECK(has(ran.out, "--json"));
     CHECK(has(ran.out, std::string("Examples:\n  lexican ") + verb));
   }
+}
+
+TEST_CASE("lexican: help shows all verbs, or the help of a verb") {
+  CHECK(run({"help"}).out == run({}).out);
+  for (const char* verb : {"scan", "sc", "help"}) {
+    CAPTURE(verb);
+    check(run({"help", verb}), 0, run({verb, "--help"}).out, "");
+  }
+  check(run({"help", "scna"}), 2, "", "lexican: unknown verb scna; did you mean scan?\n");
+  CHECK(run({"help", "scan", "more"}).status == 2);
 }
 
 TEST_CASE("lexican: completion has the first line of an option's help") {

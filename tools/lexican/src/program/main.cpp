@@ -61,16 +61,28 @@ int show_verbs(const CommandLine& line) {
   return ok;
 }
 
+/// Returns the arguments, with "help VERB" as "VERB --help".
+std::vector<std::string> without_help(int number, char** arguments) {
+  std::vector<std::string> words(arguments, arguments + number);
+  const bool is_help = words.size() == 3 && words[1] == "help" && words[2].substr(0, 1) != "-";
+  return is_help ? std::vector<std::string>{words[0], words[2], "--help"} : words;
+}
+
 int run_program(int number, char** arguments) {
   CommandLine line("lexican", about, "lexican " LEXICAN_VERSION, footer);
-  const std::vector<Verb> verbs = {add_scan(line), add_mon(line),   add_read(line),       add_write(line),
-                                   add_nmt(line),  add_share(line), add_completion(line), add_man(line)};
-  if (number < 2) {
+  const std::vector<Verb> verbs = {add_scan(line),       add_mon(line), add_read(line),
+                                   add_write(line),      add_nmt(line), add_share(line),
+                                   add_completion(line), add_man(line), add_help(line)};
+  std::vector<std::string> words = without_help(number, arguments);
+  if (words.size() < 2 || (words.size() == 2 && words[1] == "help")) {
     return show_verbs(line);
   }
-  std::string verb = verb_of(arguments[1], verbs);
-  arguments[1] = verb.data();
-  const CommandLine::Parsed parsed = line.parse(number, arguments);
+  words[1] = verb_of(words[1], verbs);
+  std::vector<char*> texts;
+  for (std::string& word : words) {
+    texts.push_back(word.data());
+  }
+  const CommandLine::Parsed parsed = line.parse(static_cast<int>(texts.size()), texts.data());
   if (!parsed.unknown_command.empty()) {
     print_message(message_for_unknown(parsed.unknown_command, verbs));
   }

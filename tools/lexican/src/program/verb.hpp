@@ -35,6 +35,7 @@ struct Verb {
 };
 
 Verb add_completion(CommandLine& line);
+Verb add_help(CommandLine& line);
 Verb add_man(CommandLine& line);
 Verb add_mon(CommandLine& line);
 Verb add_nmt(CommandLine& line);

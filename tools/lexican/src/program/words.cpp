@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lexican completion and man: texts for the user's shell.
+// lexican completion, man and help: texts for the user's shell.
 #include "cli/shell.hpp"
 #include "program/verb.hpp"
 
@@ -13,6 +13,13 @@ Verb add_completion(CommandLine& line) {
             print(codict::cli::completion(line, *shell));
             return ok;
           }};
+}
+
+Verb add_help(CommandLine& line) {
+  const auto verb = std::make_shared<std::string>();
+  Arguments arguments = line.add_command("help", "Show all verbs, or the options and examples of a verb");
+  arguments.add_option("verb", *verb, "A verb, such as scan");
+  return {arguments, [verb] { return ok; }};  // main() shows it
 }
 
 Verb add_man(CommandLine& line) {
