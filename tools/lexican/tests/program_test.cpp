@@ -359,6 +359,28 @@ TEST_CASE("lexican read: an object by its name, or a part of it") {
   CHECK(has(lines_of(ambiguous.err).back(), " more"));
 }
 
+TEST_CASE("lexican: -n is the node, like the argument") {
+  const Bench bench{5};
+  const std::string serial = "1018h:04 serial number = 000001A2h (u32)\n";
+  check(bench.run("read", {"-n", "5", "1018:4"}), 0, serial, "");
+  check(bench.run("read", {"1018:4", "-n", "5"}), 0, serial, "");
+  check(bench.run("read", {"-n", "5", "5", "1018:4"}), 0, serial, "");
+  const std::string different = "lexican: '5' and -n 6 are different nodes; give one of them\n";
+  check(bench.run("read", {"-n", "6", "5", "1018:4"}), 2, "", different);
+  check(bench.run("read", {"-n", "5"}), 2, "", "lexican: give the node and the object, such as 5 1018:4\n");
+  check(bench.run("read", {"5"}), 2, "", "lexican: give the node and the object, such as 5 1018:4\n");
+  check(bench.run("write", {"-n", "5", "1017", "500"}), 0, "1017h:00 producer heartbeat time = 500 (u16)\n", "");
+  check(bench.run("write", {"-n", "5", "5", "1017", "0"}), 0, "1017h:00 producer heartbeat time = 0 (u16)\n", "");
+  check(bench.run("write", {"-n", "5", "2005", "", "--type", "string"}), 0, "2005h:00 =  (string)\n", "");
+  check(bench.run_with_input("write", {"-n", "5", "2005", "--file", "-"}, "/dev/null"), 0, "2005h:00, 0 bytes\n", "");
+  check(bench.run("write", {"-n", "6", "5", "1017", "500"}), 2, "", different);
+  check(bench.run("write", {"-n", "5", "1017"}), 2, "", "lexican: give a value, or --file, and not both\n");
+  check(bench.run("nmt", {"reset", "-n", "5", "--timeout", "30000"}), 0, "node 5 has booted\n", "");
+  check(bench.run("nmt", {"start", "-n", "all"}), 0, "start was sent to all nodes\n", "");
+  check(bench.run("nmt", {"start", "5", "-n", "6"}), 2, "", different);
+  check(bench.run("nmt", {"start"}), 2, "", "lexican: which node? Give its node-ID, 1 to 127, or all\n");
+}
+
 TEST_CASE("lexican read: an index or sub-index that is wrong") {
   Bench bench{5};
   for (const char* word : {"1018sub4", "1018Sub04", "0x1018:0x4", "1018h:4h", "1018h:04", "1018:04h"}) {

@@ -47,6 +47,24 @@ void add_eds_option(Arguments& arguments, Common& common) {
       .single_values();
 }
 
+void add_node_option(Arguments& arguments, Common& common) {
+  arguments.add_option("-n", common.node, "Node-ID, instead of the argument");
+}
+
+bool place_node(const Common& common, const std::vector<std::optional<std::string>*>& words) {
+  if (!common.node.empty() && !words.back()->has_value()) {
+    for (std::size_t n = words.size() - 1; n > 0; --n) {
+      *words[n] = *words[n - 1];
+    }
+    *words.front() = common.node;
+  } else if (!common.node.empty() && *words.front() != common.node) {
+    print_message(
+        fmt::format("'{}' and -n {} are different nodes; give one of them", words.front()->value_or(""), common.node));
+    return false;
+  }
+  return true;
+}
+
 void add_timeout_option(Arguments& arguments, Common& common, std::uint32_t time) {
   common.timeout = time;
   arguments.add_option("--timeout", common.timeout, fmt::format("Time for each answer in ms; default: {}", time))

@@ -28,7 +28,7 @@ constexpr Command commands[] = {
 struct NmtOptions {
   Common common;
   std::string command;
-  std::string node;
+  std::optional<std::string> node;
 };
 
 /// Sends the command as soon as the bus accepts it.
@@ -147,11 +147,18 @@ int report_state(Session& session, std::uint8_t node, const Command& command, co
   return ok;
 }
 
-int run_nmt(const NmtOptions& options) {
+int run_nmt(NmtOptions& options) {
+  if (!place_node(options.common, {&options.node})) {
+    return usage;
+  }
+  if (!options.node) {
+    print_message("which node? Give its node-ID, 1 to 127, or all");
+    return usage;
+  }
   const bool is_all = options.node == "all";
-  const std::uint8_t node = is_all ? std::uint8_t{0} : node_of(options.node);
+  const std::uint8_t node = is_all ? std::uint8_t{0} : node_of(*options.node);
   if (!is_all && node == 0) {
-    print_message("'" + options.node + "' is no node-ID, which is 1 to 127, or all");
+    print_message("'" + *options.node + "' is no node-ID, which is 1 to 127, or all");
     return usage;
   }
   const Command* chosen = nullptr;
@@ -170,7 +177,7 @@ int run_nmt(const NmtOptions& options) {
       return usage;
     }
     const Interruption interruption;
-    if (!is_confirmed(fmt::format("{} {} on a physical bus?", chosen->name, options.node))) {
+    if (!is_confirmed(fmt::format("{} {} on a physical bus?", chosen->name, *options.node))) {
       print_message(Interruption::happened() ? "interrupted; nothing was sent" : "nothing was sent");
       return Interruption::happened() ? interrupted : usage;
     }
@@ -221,8 +228,9 @@ Verb add_nmt(CommandLine& line) {
     words.emplace_back(command.name);
   }
   arguments.add_option("command", options->command, "start, stop, preop, reset or reset-comm").required().one_of(words);
-  arguments.add_option("node", options->node, "Node-ID, 1 to 127, or all").required();
+  arguments.add_option("node", options->node, "Node-ID, 1 to 127, or all");
   add_bus_options(arguments, options->common);
+  add_node_option(arguments, options->common);
   add_timeout_option(arguments, options->common, 2000);
   arguments.end_help(
       "Examples:\n"

@@ -191,9 +191,10 @@ bool find_object(const std::string& word, const describe::Description& descripti
 }
 
 void add_transfer_options(Arguments& arguments, TransferOptions& options) {
-  arguments.add_option("node", options.node, "Node-ID of the device, 1 to 127").required();
-  arguments.add_option("object", options.object, "Index in hex (6081, 1018:4), name, or a part of the name").required();
+  arguments.add_option("node", options.node, "Node-ID of the device, 1 to 127");
+  arguments.add_option("object", options.object, "Index in hex (6081, 1018:4), name, or a part of the name");
   add_bus_options(arguments, options.common);
+  add_node_option(arguments, options.common);
   add_eds_option(arguments, options.common);
   add_timeout_option(arguments, options.common, 1000);
   arguments.add_option(
@@ -228,7 +229,7 @@ namespace {
 bool find(const TransferOptions& options, Target& target) {
   const describe::Description& description = target.network.of(target.node);
   std::string why;
-  if (!find_object(options.object, description, target.object, why)) {
+  if (!find_object(*options.object, description, target.object, why)) {
     print_message(why);
     return false;
   }
@@ -243,9 +244,13 @@ bool find(const TransferOptions& options, Target& target) {
 }  // namespace
 
 bool prepare(const TransferOptions& options, Target& target) {
-  target.node = node_of(options.node);
+  if (!options.node || !options.object) {
+    print_message("give the node and the object, such as 5 1018:4");
+    return false;
+  }
+  target.node = node_of(*options.node);
   if (target.node == 0) {
-    print_message("'" + options.node + "' is no node-ID, which is 1 to 127");
+    print_message("'" + *options.node + "' is no node-ID, which is 1 to 127");
     return false;
   }
   if (!read_descriptions(options.common, target.network)) {
@@ -262,8 +267,8 @@ bool prepare(const TransferOptions& options, Target& target) {
   const bool has_library = !describe::description_files(describe::user_library(), ignored).empty();
   ObjectReference reference;
   std::string why;
-  const bool is_known = find_object(options.object, description, reference, why);
-  const bool is_deferred = description.device() == nullptr && (is_known || reference_fault(options.object).empty()) &&
+  const bool is_known = find_object(*options.object, description, reference, why);
+  const bool is_deferred = description.device() == nullptr && (is_known || reference_fault(*options.object).empty()) &&
                            (has_library || (!is_known && may_upload(options.common)));
   return is_deferred || find(options, target);
 }
@@ -274,7 +279,7 @@ int find_in_device(Session& session, const TransferOptions& options, Target& tar
   }
   std::string why;
   ObjectReference reference;
-  const bool is_known = find_object(options.object, target.network.of(target.node), reference, why);
+  const bool is_known = find_object(*options.object, target.network.of(target.node), reference, why);
   Transfer transfer;
   const std::optional<describe::Identity> identity = read_identity(session.sdo(), options.common.timeout, transfer);
   if (!identity && (transfer.code == CO_SDO_ERR_TIMEOUT || session.host().interrupted())) {

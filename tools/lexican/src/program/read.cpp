@@ -65,9 +65,9 @@ int write_output(const std::string& path, const Bytes& data) {
   return ok;
 }
 
-int run_read(const ReadOptions& options) {
+int run_read(ReadOptions& options) {
   Target target;
-  if (!prepare(options, target)) {
+  if (!place_node(options.common, {&options.node, &options.object}) || !prepare(options, target)) {
     return usage;
   }
   int status = ok;

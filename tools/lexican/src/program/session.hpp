@@ -53,8 +53,8 @@ bool find_object(const std::string& word, const describe::Description& descripti
 /// Adds the positional arguments "node" and "object", and the options of a transfer.
 struct TransferOptions {
   Common common;
-  std::string node;
-  std::string object;
+  std::optional<std::string> node;
+  std::optional<std::string> object;
   std::string type;
 };
 void add_transfer_options(Arguments& arguments, TransferOptions& options);

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,12 +53,19 @@ struct Common {
   std::uint32_t timeout = 0;     ///< --timeout, ms
   bool is_json = false;          ///< --json
   bool is_sure = false;          ///< --yes
+  std::string node;              ///< -n, instead of the first positional argument
   bool acknowledges = false;     ///< --ack, of a verb that listens only
 };
 
 /// Adds -i, --rate, --yes and --json.
 void add_bus_options(Arguments& arguments, Common& common);
 void add_eds_option(Arguments& arguments, Common& common);
+/// Adds -n, for a verb whose positional argument is the node.
+void add_node_option(Arguments& arguments, Common& common);
+/// Moves the positional arguments one further if -n has the node, so that the first one is the node in each case.
+/// Prints the reason if that fails. \a words: those that the verb needs, the node first.
+/// \retval false  the node is given twice, and differs; or an argument is missing
+bool place_node(const Common& common, const std::vector<std::optional<std::string>*>& words);
 /// Adds --timeout. \a time: the default in ms.
 void add_timeout_option(Arguments& arguments, Common& common, std::uint32_t time);
 

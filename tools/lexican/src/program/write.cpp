@@ -103,9 +103,16 @@ int verify(Session& session, const Target& target, const WriteOptions& options, 
   return ok;
 }
 
-int run_write(const WriteOptions& options, bool is_forced) {
+int run_write(WriteOptions& options, bool is_forced) {
   Target target;
   Bytes data;
+  std::vector<std::optional<std::string>*> words = {&options.node, &options.object};
+  if (options.file.empty()) {
+    words.push_back(&options.value);
+  }
+  if (!place_node(options.common, words)) {
+    return usage;
+  }
   if (!prepare(options, target) || (target.is_found && !data_of(options, target, is_forced, data))) {
     return usage;
   }
