@@ -42,7 +42,7 @@ TEST_CASE("codict: without a command or with an unknown one the usage is printed
 TEST_CASE("codict: an unknown value of an option is refused with a list of the accepted ones") {
   const Ran wrong = run("check octal.eds --level loud");
   CHECK(wrong.status == 2);
-  CHECK(has(wrong.err, "--level: loud not in {note,warning,error}\n"));
+  CHECK(wrong.err == "codict: --level: loud not in {note,warning,error}; codict check --help shows the options\n");
   CHECK(run("check octal.eds --level 2").status == 2);
 }
 
