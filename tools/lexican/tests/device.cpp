@@ -33,6 +33,10 @@ std::uint8_t is_enabled = 1;
 std::uint8_t label[32] = "axis";
 CO_OBJ_STR_RW label_text = {0, 4, sizeof label, label};
 std::uint32_t cycles = 7;
+std::uint32_t second_id = 0xC0000280;
+std::uint8_t second_type = 255;
+std::uint8_t second_number = 0;
+std::uint32_t second_mapping[2]{};
 std::uint32_t password = 0;
 const std::uint32_t limit = 5;
 CO_OBJ_STR name = {0, reinterpret_cast<const std::uint8_t*>("SD-400")};
@@ -88,9 +92,15 @@ CO_OBJ objects[] = {
     {CO_KEY(0x1800, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)2},
     {CO_KEY(0x1800, 1, CO_OBJ_DN__R_), CO_TPDO_ID, (CO_DATA)0x40000180},
     {CO_KEY(0x1800, 2, CO_OBJ_D___R_), CO_TPDO_TYPE, (CO_DATA)255},
+    {CO_KEY(0x1801, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)2},
+    {CO_KEY(0x1801, 1, CO_OBJ_____RW), CO_TPDO_ID, (CO_DATA)(&second_id)},
+    {CO_KEY(0x1801, 2, CO_OBJ_____RW), CO_TPDO_TYPE, (CO_DATA)(&second_type)},
     {CO_KEY(0x1A00, 0, CO_OBJ_D___R_), CO_TPDO_NUM, (CO_DATA)2},
     {CO_KEY(0x1A00, 1, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)CO_LINK(0x2001, 0, 16)},
     {CO_KEY(0x1A00, 2, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)CO_LINK(0x2002, 0, 32)},
+    {CO_KEY(0x1A01, 0, CO_OBJ_____RW), CO_TPDO_NUM, (CO_DATA)(&second_number)},
+    {CO_KEY(0x1A01, 1, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA)(&second_mapping[0])},
+    {CO_KEY(0x1A01, 2, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA)(&second_mapping[1])},
     {CO_KEY(0x2000, 0, CO_OBJ____PRW), CO_TUNSIGNED8, (CO_DATA)(&output)},
     {CO_KEY(0x2001, 0, CO_OBJ___APRW), CO_TSIGNED16, (CO_DATA)(&temperature)},
     {CO_KEY(0x2002, 0, CO_OBJ____PRW), CO_TUNSIGNED32, (CO_DATA)(&position)},
@@ -138,6 +148,7 @@ int run(const std::string& bus_name, std::uint8_t id, bool is_silent, bool is_sl
     program[n] = static_cast<std::uint8_t>(n * 7 + n / 256);
   }
   heartbeat = is_silent ? 100 : 0;
+  second_id += id <= 127 ? id : 0U;
   for (CO_OBJ& object : objects) {
     const bool is_server = object.Key >> 8 == 0x120001 || object.Key >> 8 == 0x120002;
     if (is_silent && is_server) {

@@ -24,6 +24,7 @@ class Schema {
  private:
   static bool has_type(const Json& value, const std::string& type) {
     return type == "object"    ? value.is_object()
+           : type == "array"   ? value.is_array()
            : type == "string"  ? value.is_string()
            : type == "boolean" ? value.is_boolean()
            : type == "integer" ? value.is_number_integer()
@@ -80,6 +81,14 @@ class Schema {
     }
     if (keyword == "properties" || keyword == "additionalProperties") {
       return check_members(value, schema, keyword, argument, where);
+    }
+    if (keyword == "items") {
+      for (const Json& item : value.is_array() ? value : Json::array()) {
+        if (std::string wrong = check(item, argument, where + "[]"); !wrong.empty()) {
+          return wrong;
+        }
+      }
+      return {};
     }
     return where + ": unknown keyword " + keyword;
   }

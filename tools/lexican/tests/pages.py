@@ -242,6 +242,7 @@ def main():
                 blocks = run_page(bench, page)
                 bench.report(f"{page.name} has examples", "" if blocks else "none")
             bench.start_node(["--node-id", "5"])
+            bench.prepare(f"lexican dump 5 -o drive5.dcf --eds drive.eds -i {BUS}")
             for verb in (page.stem for page in PAGES if (ROOT / f"tools/lexican/src/program/{page.stem}.cpp").exists()):
                 run_help(bench, verb)
         finally:

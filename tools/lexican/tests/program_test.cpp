@@ -162,6 +162,8 @@ TEST_CASE("lexican: without arguments all verbs are listed") {
         "  mon        Show in words what happens on a bus, or in a log\n"
         "  read       Read an object of a device\n"
         "  write      Write an object of a device\n"
+        "  dump       Read the configuration of a device into a DCF\n"
+        "  apply      Write the configuration of a DCF into a device\n"
         "  nmt        Change the NMT state of a device, or of all\n"
         "  share      Hand one adapter to many programs\n"
         "  completion Print what a shell needs to complete verbs and options\n"
@@ -1219,4 +1221,149 @@ TEST_CASE("lexican share: a bus as another hub, and as an slcan adapter") {
         "lexican: the name of a hub has 1 to 40 letters, digits, - and _\n");
   share.send(SIGINT);
   CHECK(share.finish().status == 0);
+}
+
+namespace {
+
+/// Returns place and length of the value of an entry in a DCF, such as that of "1801sub1".
+std::pair<std::size_t, std::size_t> place_of(const std::string& dcf, const std::string& section) {
+  const std::string key = "ParameterValue=";
+  const std::size_t begin = dcf.find('[' + section + ']');
+  const std::size_t value = dcf.find(key, begin);
+  REQUIRE(value < dcf.find("\n[", begin));
+  return {value + key.size(), dcf.find('\r', value) - value - key.size()};
+}
+
+/// A device, and the DCF that was read from it.
+struct Configured : Bench {
+  Configured() : Bench{5} {
+    const Ran ran = run("dump", {"5", "-o", dcf, "--eds", eds});
+    CHECK(ran.err == "");
+    CHECK(ran.status == 0);
+    summary = std::regex_replace(ran.out, std::regex("in [0-9.]+ s"), "in 0.0 s");
+  }
+  Ran apply(Words words) const {
+    words.insert(words.begin(), dcf);
+    return run("apply", words);
+  }
+  void set(const std::string& section, const std::string& value) {
+    std::string text = bytes_of(dcf);
+    const auto [place, length] = place_of(text, section);
+    write_bytes(dcf, text.replace(place, length, value));
+  }
+
+  const std::string dcf = directory / "5.dcf";
+  std::string summary;
+};
+
+}  // namespace
+
+TEST_CASE("lexican dump: the configuration of a device as a DCF") {
+  Configured bench;
+  CHECK(bench.summary ==
+        "10 values in 0.0 s; left out: read-only 22, mapped in PDOs 3, write-only 1, domains 1\n"
+        "1 refused with 0800 0022h data cannot be stored: device state: 2008h\n");
+  const std::string dcf = bytes_of(bench.dcf);
+  CHECK(has(dcf, "FileName=5.dcf\r\n"));
+  CHECK(has(dcf, "NodeID=5\r\n"));
+  const std::pair<const char*, const char*> values[] = {
+      {"1017", "0"},       {"1801sub1", "$NODEID+0xC0000280"},
+      {"1801sub2", "255"}, {"1A01sub1", "0x00000000"},
+      {"2003", "0.5"},     {"2004", "1"},
+      {"2005", "axis"},    {"200A", "5"},
+  };
+  for (const auto& [section, value] : values) {
+    const auto [place, length] = place_of(dcf, section);
+    CHECK_MESSAGE(dcf.substr(place, length) == value, section);
+  }
+  CHECK(bench.run("dump", {"5", "-o", bench.dcf, "--eds", bench.dcf}).status == 0);
+  CHECK(bytes_of(bench.dcf) == std::regex_replace(dcf, std::regex("LastEDS=device.eds"), "LastEDS=5.dcf"));
+  const Ran text = bench.run("dump", {"5", "--eds", eds});
+  CHECK(text.out == std::regex_replace(dcf, std::regex("FileName=5"), "FileName=node5"));
+  CHECK(has(text.err, "10 values in"));
+  const Ran all = bench.run("dump", {"5", "--eds", eds, "--all"});
+  const auto [place, length] = place_of(all.out, "2006");
+  CHECK(all.out.substr(place, length) == "7");
+  const Ran json = bench.run("dump", {"5", "--eds", eds, "-o", bench.dcf, "--json"});
+  CHECK(fault_of(json.out, "dump") == "");
+  CHECK(Json::parse(json.out)["refused"] == Json::parse(R"([{"index": 8200, "sub": 0, "abort": 134217762}])"));
+  CHECK(bench.run("dump", {"5", "--eds", eds, "--json"}).status == 2);
+  check(bench.run("dump", {"5"}), 2, "",
+        "lexican: a dump needs the description of the device: --eds FILE (EDS, DCF, XDD or XDC)\n");
+  CHECK(bench.run("dump", {"7", "--eds", eds, "--timeout", "50"}).status == 3);
+  CHECK(bench.run("dump", {"5", "--eds", eds, "-o", "/nonexistent/5.dcf"}).status == 2);
+}
+
+TEST_CASE("lexican apply: what differs is shown, and then written") {
+  Configured bench;
+  check(bench.apply({"--diff"}), 0, "0 of 10 values differ\n", "");
+  bench.set("1017", "250");
+  bench.set("2003", "-1.5");
+  bench.set("2005", "second axis");
+  const std::string differences =
+      "3 of 10 values differ\n"
+      "  1017h Producer heartbeat time  0 -> 250\n"
+      "  2003h Temperature offset       0.5 -> -1.5\n"
+      "  2005h Label                    \"axis\" -> \"second axis\"\n";
+  check(bench.apply({"--diff"}), 1, differences, "");
+  check(bench.apply({"--diff"}), 1, differences, "");
+  check(bench.apply({}), 0,
+        differences + "all 10 values are as in the file; node 5 is pre-operational: lexican nmt start 5\n", "");
+  check(bench.apply({}), 0, "0 of 10 values differ\n", "");
+  check(bench.run("read", {"5", "2005"}), 0, "2005h:00 = \"second axis\"\n", "");
+  bench.set("2005", "third");
+  const Ran json = bench.apply({"--json"});
+  CHECK(fault_of(json.out, "apply") == "");
+  CHECK(Json::parse(json.out)["differ"] == Json::parse(R"([{"index": 8197, "sub": 0}])"));
+  CHECK(Json::parse(json.out)["written"] == 1);
+}
+
+TEST_CASE("lexican apply: a PDO is switched off while its parameters change, and the node-ID is added") {
+  Configured bench;
+  bench.add(6);
+  bench.set("1801sub1", "$NODEID+0x40000280");
+  bench.set("1801sub2", "1");
+  bench.set("1A01sub0", "2");
+  bench.set("1A01sub1", "0x20020020");
+  bench.set("1A01sub2", "0x20010010");
+  const Ran ran = bench.apply({"-n", "6"});
+  CHECK(ran.err == "");
+  CHECK(ran.status == 0);
+  CHECK(has(ran.out, "5 of 10 values differ\n"));
+  check(bench.run("read", {"6", "1801:1"}), 0, "1801h:01 TPDO communication parameter = 40000286h (u32)\n", "");
+  check(bench.run("read", {"6", "1A01:2"}), 0, "1A01h:02 TPDO mapping parameter = 20010010h (u32)\n", "");
+  check(bench.apply({"-n", "6", "--diff"}), 0, "0 of 10 values differ\n", "");
+  bench.set("1A01sub1", "0x20020010");  // of 16 bits, but the object has 32
+  const Ran wrong = bench.apply({"-n", "6"});
+  CHECK(wrong.status == 1);
+  CHECK(has(wrong.err, "1A01h:01 Second TPDO mapping parameter, First object refused: 0"));
+}
+
+TEST_CASE("lexican apply: values that the device refuses, or does not keep") {
+  Configured bench;
+  bench.set("200A", "9");
+  check(bench.apply({"--store"}), 1,
+        "1 of 10 values differ\n"
+        "  200Ah Position limit  5 -> 9\n"
+        "  200Ah Position limit  5 -> 9\n",
+        "lexican: after writing, 1 of 10 values differ; nothing was stored\n");
+  CHECK(bench.apply({"--json"}).status == 1);
+}
+
+TEST_CASE("lexican apply: another device, and files without values") {
+  Configured bench;
+  const std::string dcf = bytes_of(bench.dcf);
+  write_bytes(bench.dcf, std::regex_replace(dcf, std::regex("ProductNumber=[^\r]*"), "ProductNumber=0x403"));
+  check(
+      bench.apply({}), 1, "",
+      "lexican: the file is for 00000100:00000403, the device is 00000100:00000402; --force applies it all the same\n");
+  check(bench.apply({"--force"}), 0, "0 of 10 values differ\n", "");
+  write_bytes(bench.dcf, bytes_of(eds));
+  check(bench.apply({}), 2, "", "lexican: " + bench.dcf + " has no node-ID; give it by -n NODE\n");
+  CHECK(bench.apply({"-n", "5"}).status == 2);
+  write_bytes(bench.dcf, "no description");
+  CHECK(bench.apply({"-n", "5"}).status == 2);
+  write_bytes(bench.dcf, dcf);
+  CHECK(bench.apply({"-n", "128"}).status == 2);
+  CHECK(bench.apply({"-n", "7", "--timeout", "50"}).status == 3);
 }

@@ -280,7 +280,7 @@ TEST_CASE("slcan: a rate that the protocol does not have") {
 TEST_CASE("slcan: a device that cannot be opened") {
   CHECK(error_of("slcan:/no/such") == "slcan adapter /no/such: No such file or directory");
   CHECK(error_of("slcan:/no@500k/such") == "slcan adapter /no@500k/such: No such file or directory");
-  CHECK(error_of("slcan:") == "slcan adapter : No such file or directory");
+  CHECK(error_of("slcan:") == "slcan needs a device, such as /dev/ttyACM0");
   CHECK(error_of("slcan:/dev/null") == "slcan adapter /dev/null: it is not a serial device");
 }
 

@@ -89,7 +89,7 @@ class Monitor {
     std::uint8_t count = 0;              ///< sub-index 0
     bool is_observed = false;            ///< a parameter was seen on the bus
   };
-  /// Of the identity object of a node, as it was read.
+  /// Entries of the identity object of a node, as they were read.
   struct Seen {
     std::array<std::optional<std::uint32_t>, 3> parts{};  ///< vendor-ID, product code, revision number
     unsigned reports = 0;

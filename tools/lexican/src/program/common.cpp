@@ -224,6 +224,21 @@ bool is_confirmed(const std::string& question) {
   return std::fgets(answer, sizeof answer, stdin) != nullptr && (answer[0] == 'y' || answer[0] == 'Y');
 }
 
+int agree(const host_bus::Bus& bus, const Common& common, const std::string& command) {
+  if (!bus.is_physical() || common.is_sure) {
+    return ok;
+  }
+  if (isatty(STDIN_FILENO) == 0) {
+    print_message("this command changes a physical bus: confirm it by --yes");
+    return usage;
+  }
+  if (is_confirmed(command + " on a physical bus?")) {
+    return ok;
+  }
+  print_message(Interruption::happened() ? "interrupted; nothing was sent" : "nothing was sent");
+  return Interruption::happened() ? interrupted : usage;
+}
+
 namespace {
 
 /// Messages of the verb, with line ends between them.

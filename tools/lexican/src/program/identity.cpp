@@ -35,6 +35,22 @@ std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t ti
   return identity;
 }
 
+std::optional<describe::Identity> identify_device(SdoClient& sdo, std::uint8_t node, const Common& common,
+                                                  describe::Network& network, Transfer& transfer) {
+  const std::optional<describe::Identity> identity = read_identity(sdo, common.timeout, transfer);
+  if (!identity || network.of(node).device() != nullptr) {
+    return identity;
+  }
+  std::optional<describe::Known> known = describe::find_description(describe::user_library(), *identity);
+  if (!known) {
+    known = upload_description(sdo, node, *identity, common);
+  }
+  if (known) {
+    network.describe(node, std::move(known->description));
+  }
+  return identity;
+}
+
 std::optional<describe::Known> upload_description(SdoClient& sdo, std::uint8_t node, const describe::Identity& identity,
                                                   const Common& common) {
   if (!may_upload(common)) {

@@ -13,6 +13,11 @@ namespace lexican::program {
 /// \retval nothing  the device does not have one of the others; \a transfer: the one that has failed
 std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t timeout, Transfer& transfer);
 
+/// Describes a device by the user's library, or by the description that it stores, unless \a network describes it.
+/// \retval nothing  it does not answer; \a transfer: the one that has failed
+std::optional<describe::Identity> identify_device(SdoClient& sdo, std::uint8_t node, const Common& common,
+                                                  describe::Network& network, Transfer& transfer);
+
 /// Returns true if a device may be asked for its description: the user can agree.
 bool may_upload(const Common& common);
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "program/session.hpp"
+#include "program/command.hpp"
 
 namespace lexican::program {
 namespace {
@@ -31,20 +31,6 @@ struct NmtOptions {
   std::optional<std::string> node;
 };
 
-/// Sends the command as soon as the bus accepts it.
-/// \retval false  the bus has accepted nothing for \a timeout
-bool send(host_bus::Bus& bus, BusHost& host, const CO_IF_FRM& frame, Micros timeout) {
-  const Micros begin = host.now();
-  while (!bus.send(frame)) {
-    if (host.interrupted() || host.now() - begin >= timeout) {
-      return false;
-    }
-    host.wait(millisecond);
-    bus.receive();
-  }
-  return true;
-}
-
 /// Waits until an adapter has the whole command, and for its answer.
 void flush(host_bus::Bus& bus, BusHost& host) {
   const Micros begin = host.now();
@@ -53,26 +39,6 @@ void flush(host_bus::Bus& bus, BusHost& host) {
     host.wait(millisecond);
     bus.receive();
   }
-}
-
-constexpr std::uint8_t no_state = 0xFF;
-
-/// Waits until the error control of the device shows the state.
-/// \retval last state  no_state: none was received
-std::uint8_t wait_for_state(Session& session, std::uint8_t node, std::uint8_t state, Micros timeout) {
-  const Micros begin = session.host().now();
-  std::uint8_t last = no_state;
-  while (last != state && session.host().now() - begin < timeout && !session.host().interrupted()) {
-    while (const std::optional<host_bus::Entry> entry = session.bus().receive()) {
-      if (last != state && entry->frame.Identifier == 0x700U + node && entry->frame.DLC == 1) {
-        last = entry->frame.Data[0] & 0x7FU;
-      }
-    }
-    if (last != state) {
-      session.host().wait(10 * millisecond);
-    }
-  }
-  return last;
 }
 
 /// Heartbeat time of a device, read from 1017h.
@@ -171,15 +137,11 @@ int run_nmt(NmtOptions& options) {
     return status;
   }
   const bool is_grave = is_all || chosen->state == 0;
-  if (is_grave && bus->is_physical() && !options.common.is_sure) {
-    if (isatty(STDIN_FILENO) == 0) {
-      print_message("this command changes a physical bus: confirm it by --yes");
-      return usage;
-    }
+  if (is_grave) {
     const Interruption interruption;
-    if (!is_confirmed(fmt::format("{} {} on a physical bus?", chosen->name, *options.node))) {
-      print_message(Interruption::happened() ? "interrupted; nothing was sent" : "nothing was sent");
-      return Interruption::happened() ? interrupted : usage;
+    status = agree(*bus, options.common, fmt::format("{} {}", chosen->name, *options.node));
+    if (status != ok) {
+      return status;
     }
   }
   Session session(std::move(bus), is_all ? std::uint8_t{127} : node);
@@ -192,8 +154,7 @@ int run_nmt(NmtOptions& options) {
     print_message("interrupted; nothing was sent");
     return interrupted;
   }
-  const CO_IF_FRM frame = {0, {static_cast<std::uint8_t>(chosen->specifier), node}, 2};
-  if (!send(session.bus(), session.host(), frame, timeout)) {
+  if (!send_command(session.bus(), session.host(), chosen->specifier, node, timeout)) {
     const std::string& fault = session.bus().fault();
     print_message("the command was not sent: " + (fault.empty() ? "the bus accepts no frames" : fault));
     return session.is_interrupted() ? interrupted : bus_fault;

@@ -3,6 +3,11 @@
 /// An open bus with a node of the stack as SDO client of one device.
 #pragma once
 
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "bus/clock.hpp"
 #include "client/sdo_client.hpp"
 #include "host/bus_host.hpp"
 #include "program/verb.hpp"
@@ -37,6 +42,37 @@ class Session {
   bool is_stopped_ = false;
   bool is_heard_ = false;
   DeviceClient client_;
+};
+
+/// Shows on a terminal how many of many entries are done, ten times a second if they take longer than half a second.
+/// The line is removed at the end.
+class EntryCount {
+ public:
+  explicit EntryCount(std::size_t total) : total_(total), is_terminal_(isatty(STDERR_FILENO) != 0) {}
+  ~EntryCount() {
+    if (is_shown_) {
+      std::fputs("\r\033[K", stderr);
+    }
+  }
+  EntryCount(const EntryCount&) = delete;
+  EntryCount& operator=(const EntryCount&) = delete;
+
+  void next() {
+    ++done_;
+    const Micros now = host_bus::clock_now(CLOCK_MONOTONIC);
+    if (is_terminal_ && now >= due_) {
+      std::fprintf(stderr, "\r%zu of %zu entries\033[K", done_, total_);
+      due_ = now + 100 * millisecond;
+      is_shown_ = true;
+    }
+  }
+
+ private:
+  std::size_t total_;
+  std::size_t done_ = 0;
+  bool is_terminal_;
+  bool is_shown_ = false;
+  Micros due_ = host_bus::clock_now(CLOCK_MONOTONIC) + 500 * millisecond;
 };
 
 /// An object of a device.

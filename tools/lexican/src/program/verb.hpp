@@ -35,7 +35,9 @@ struct Verb {
   std::function<int()> run;
 };
 
+Verb add_apply(CommandLine& line);
 Verb add_completion(CommandLine& line);
+Verb add_dump(CommandLine& line);
 Verb add_help(CommandLine& line);
 Verb add_man(CommandLine& line);
 Verb add_mon(CommandLine& line);
@@ -90,6 +92,11 @@ std::string state_text(std::uint8_t state);
 /// \retval true   the answer is yes
 /// \retval false  it is another, or Interruption::happened()
 bool is_confirmed(const std::string& question);
+
+/// Asks whether a command may change a physical bus, unless --yes says so. An Interruption must exist. \a command: for
+/// the question.
+/// \retval status  ok: it may; else nothing was sent, and the reason is printed
+int agree(const host_bus::Bus& bus, const Common& common, const std::string& command);
 
 /// Prints "lexican: text" on the standard error output, control characters as question marks: why the verb fails, or a
 /// remedy.

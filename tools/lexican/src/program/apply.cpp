@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: Apache-2.0
+// lexican apply: writes the configuration of a DCF or XDC into a device.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "describe/configuration.hpp"
+#include "model/downloads.hpp"
+#include "program/command.hpp"
+#include "program/identity.hpp"
+#include "trace/decode.hpp"
+
+namespace lexican::program {
+namespace {
+
+using codict::Download;
+using describe::EntryKey;
+
+constexpr std::uint16_t store_parameters = 0x1010;
+constexpr Micros boot_time = 10'000 * millisecond;
+
+struct ApplyOptions {
+  Common common;
+  std::string file;
+  std::string node;
+  bool shows_only = false;  ///< --diff
+  bool stores = false;
+  bool is_forced = false;
+};
+
+/// A value that the device has not, or that cannot be compared.
+struct Difference {
+  EntryKey key;
+  Bytes before;            ///< in the device
+  Bytes wanted;            ///< in the file
+  std::uint32_t code = 0;  ///< why the device has refused to read or to write it; 0: it has not
+};
+
+Bytes bytes_of(const Download& download) { return {download.bytes.begin(), download.bytes.end()}; }
+
+class Apply {
+ public:
+  Apply(const ApplyOptions& options, Session& session, const describe::Description& description, std::uint8_t node)
+      : options_(options), session_(session), description_(description), device_(*description.device()) {
+    const std::set<EntryKey> mapped = describe::mapped_entries(device_);
+    const auto leave_out = [this](std::uint16_t index, std::uint8_t sub_index, const codict::Entry&) {
+      left_out_.emplace_back(index, sub_index);
+    };
+    for (Download& download : codict::downloads_of(device_, node, leave_out)) {
+      const describe::Part part = describe::part_of(device_, {download.index, download.sub_index}, mapped);
+      if (part == describe::Part::configuration || part == describe::Part::write_only) {
+        is_compared_ += download.is_intermediate || part == describe::Part::write_only ? 0U : 1U;
+        downloads_.push_back(std::move(download));
+      } else {
+        left_out_.emplace_back(download.index, download.sub_index);
+      }
+    }
+  }
+
+  /// Compares the values of the device with those of the file.
+  /// \retval false  the device does not answer, or the program was interrupted: transfer() is the last one
+  bool compare() {
+    differences_.clear();
+    EntryCount count(is_compared_);
+    for (const Download& download : downloads_) {
+      const EntryKey key{download.index, download.sub_index};
+      const codict::Entry& entry = *device_.find(key.first, key.second);
+      if (download.is_intermediate || !codict::is_readable(entry.access.value)) {
+        continue;
+      }
+      count.next();
+      last_ = key;
+      constexpr std::uint32_t most = 65536;
+      transfer_ = session_.sdo().upload(key.first, key.second, {most, options_.common.timeout, {}});
+      if (!transfer_.done() && !is_refusal()) {
+        return false;
+      }
+      const Bytes wanted = bytes_of(download);
+      if (!transfer_.done() || !describe::is_equal(device_, key, transfer_.data, wanted)) {
+        differences_.push_back({key, transfer_.data, wanted, transfer_.code});
+      }
+    }
+    return true;
+  }
+
+  /// Writes the values that differ, those that cannot be compared, and PDOs of which a parameter differs as a whole.
+  /// \retval false  as compare()
+  bool write() {
+    refused_.clear();
+    const auto differs = [this](const Download& download) {
+      return std::any_of(differences_.begin(), differences_.end(), [&](const Difference& difference) {
+        return difference.key == EntryKey{download.index, download.sub_index};
+      });
+    };
+    std::set<std::uint16_t> pdos;
+    for (const Download& download : downloads_) {
+      if (download.communication != 0 && differs(download)) {
+        pdos.insert(download.communication);
+      }
+    }
+    for (const Download& download : downloads_) {
+      const EntryKey key{download.index, download.sub_index};
+      const bool is_readable = codict::is_readable(device_.find(key.first, key.second)->access.value);
+      const bool is_wanted =
+          download.communication != 0 ? pdos.count(download.communication) != 0 : !is_readable || differs(download);
+      if (!is_wanted) {
+        continue;
+      }
+      last_ = key;
+      transfer_ = session_.sdo().download(key.first, key.second, bytes_of(download),
+                                          {SdoClient::small, options_.common.timeout, {}});
+      if (!transfer_.done() && !is_refusal()) {
+        return false;
+      }
+      if (transfer_.done()) {
+        written_ += download.is_intermediate ? 0U : 1U;
+      } else {
+        refused_[key] = transfer_.code;
+      }
+    }
+    return true;
+  }
+
+  /// Prints a line for each difference. \a before: words for the value of the device, \a after: for that of the file.
+  void print_differences() const {
+    std::size_t width = 0;
+    for (const Difference& difference : differences_) {
+      width = std::max(width, name_of(difference.key).size());
+    }
+    for (const Difference& difference : differences_) {
+      const auto [key, before, wanted, code] = difference;
+      const std::string shown = code != 0 ? fmt::format("refused {}", trace::abort_code(code))
+                                          : description_.show(key.first, key.second, before);
+      print(fmt::format("  {:<{}}  {} -> {}\n", name_of(key), width, shown,
+                        description_.show(key.first, key.second, wanted)));
+    }
+  }
+
+  void print_refused() const {
+    for (const auto& [key, code] : refused_) {
+      print_message(
+          fmt::format("{} refused: {} {}", name_of(key), trace::abort_code(code), trace::abort_meaning(code)));
+    }
+  }
+
+  std::string name_of(const EntryKey& key) const { return description_.object(key.first, key.second); }
+  const Transfer& transfer() const { return transfer_; }
+  const EntryKey& last() const { return last_; }
+  std::size_t compared() const { return is_compared_; }
+  std::size_t written() const { return written_; }
+  /// Returns true if the file has values that cannot be read from the device.
+  bool has_write_only() const {
+    return std::any_of(downloads_.begin(), downloads_.end(), [this](const Download& download) {
+      return !codict::is_readable(device_.find(download.index, download.sub_index)->access.value);
+    });
+  }
+  bool has_downloads() const { return !downloads_.empty(); }
+  const std::vector<Difference>& differences() const { return differences_; }
+  const std::map<EntryKey, std::uint32_t>& refused() const { return refused_; }
+  const std::vector<EntryKey>& left_out() const { return left_out_; }
+
+ private:
+  bool is_refusal() const {
+    return transfer_.fault.empty() && transfer_.code != CO_SDO_ERR_TIMEOUT && !session_.is_interrupted();
+  }
+
+  const ApplyOptions& options_;
+  Session& session_;
+  const describe::Description& description_;
+  const codict::Device& device_;
+  std::vector<Download> downloads_;
+  std::vector<EntryKey> left_out_;
+  std::size_t is_compared_ = 0;
+  std::size_t written_ = 0;
+  std::vector<Difference> differences_;
+  std::map<EntryKey, std::uint32_t> refused_;
+  Transfer transfer_;
+  EntryKey last_{};
+};
+
+/// Returns why the file is for another device than this one; empty: it is for it.
+std::string other_device(const codict::Identity& file, const std::optional<describe::Identity>& device) {
+  if (!device) {
+    return {};  // it has no identity that could differ
+  }
+  const bool is_vendor = file.vendor_number.is_given && file.vendor_number.value != device->vendor;
+  const bool is_product = file.product_number.is_given && file.product_number.value != device->product;
+  return is_vendor || is_product
+             ? fmt::format("the file is for {:08X}:{:08X}, the device is {:08X}:{:08X}", file.vendor_number.value,
+                           file.product_number.value, device->vendor, device->product)
+             : std::string();
+}
+
+/// Prints the failure of the last transfer, and how to go on.
+int report_break(Session& session, const Apply& apply, std::uint8_t node) {
+  Target target;
+  target.node = node;
+  target.name = apply.name_of(apply.last());
+  const int status = report_failure(session, target, apply.transfer());
+  if (apply.written() != 0) {
+    print_message(fmt::format("{} values were written; the same command goes on", apply.written()));
+  }
+  return status;
+}
+
+/// Stores the parameters, resets the device, and compares again.
+int store(Session& session, Apply& apply, std::uint8_t node, const Common& common) {
+  Target target;
+  target.node = node;
+  target.name = apply.name_of({store_parameters, 1});
+  const std::uint32_t patience = std::max(common.timeout, std::uint32_t{10'000});  // of a slow memory
+  const Transfer saved =
+      session.sdo().download(store_parameters, 1, {'s', 'a', 'v', 'e'}, {SdoClient::small, patience, {}});
+  if (!saved.done()) {
+    return report_failure(session, target, saved);
+  }
+  send_command(session.bus(), session.host(), CO_NMT_COMMAND_RESET_NODE, node, common.timeout * millisecond);
+  if (wait_for_state(session, node, 0, boot_time) != 0) {
+    print_message(
+        fmt::format("stored; but node {} has sent no boot-up message after its reset; lexican apply --diff "
+                    "shows after a power cycle whether all is there",
+                    node));
+    return session.is_interrupted() ? interrupted : no_answer;
+  }
+  if (!apply.compare()) {
+    return report_break(session, apply, node);
+  }
+  return ok;
+}
+
+void print_json_result(const Apply& apply, std::uint8_t node, bool is_stored,
+                       const std::vector<Difference>& differences) {
+  const auto object = [](const EntryKey& key) { return nlohmann::json{{"index", key.first}, {"sub", key.second}}; };
+  nlohmann::json differ = nlohmann::json::array();
+  for (const Difference& difference : differences) {
+    differ.push_back(object(difference.key));
+  }
+  nlohmann::json refused = nlohmann::json::array();
+  for (const auto& [key, code] : apply.refused()) {
+    refused.push_back(object(key));
+    refused.back()["abort"] = code;
+  }
+  const nlohmann::json json = {{"node", node},       {"values", apply.compared()},
+                               {"differ", differ},   {"written", apply.written()},
+                               {"refused", refused}, {"stored", is_stored}};
+  print(json.dump() + '\n');
+}
+
+void print_left_out(const Apply& apply) {
+  if (!apply.left_out().empty()) {
+    std::string names;
+    for (const EntryKey& key : apply.left_out()) {
+      names += (names.empty() ? "" : ", ") + describe::key_of(key.first, key.second, key.second != 0);
+    }
+    print_note(fmt::format("not written from a file: {}", names));
+  }
+}
+
+/// Compares, and writes what differs.
+int apply_to(Session& session, Apply& apply, std::uint8_t node, const ApplyOptions& options) {
+  if (!apply.compare()) {
+    return report_break(session, apply, node);
+  }
+  const std::vector<Difference> differences = apply.differences();
+  if (!options.common.is_json) {
+    print(fmt::format("{} of {} values differ\n", differences.size(), apply.compared()));
+    apply.print_differences();
+  }
+  if (options.shows_only) {
+    if (options.common.is_json) {
+      print_json_result(apply, node, false, differences);
+    }
+    return differences.empty() ? ok : refused;
+  }
+  const bool has_work = !differences.empty() || apply.has_write_only() || options.stores;
+  int status = has_work
+                   ? agree(session.bus(), options.common,
+                           fmt::format("write {} of {} values to node {}", differences.size(), apply.compared(), node))
+                   : int{ok};
+  if (status != ok) {
+    return status;
+  }
+  if (!differences.empty() || apply.has_write_only()) {
+    send_command(session.bus(), session.host(), CO_NMT_COMMAND_PREOP, node, options.common.timeout * millisecond);
+    if (!apply.write() || !apply.compare()) {
+      return report_break(session, apply, node);
+    }
+  }
+  apply.print_refused();
+  bool is_stored = false;
+  if (apply.differences().empty() && apply.refused().empty() && options.stores) {
+    status = store(session, apply, node, options.common);
+    if (status != ok) {
+      return status;
+    }
+    is_stored = true;
+  }
+  if (!apply.differences().empty() || !apply.refused().empty()) {
+    status = refused;
+    print_message(fmt::format("after {}, {} of {} values differ{}", is_stored ? "the reset of the device" : "writing",
+                              apply.differences().size(), apply.compared(),
+                              options.stores && !is_stored ? "; nothing was stored" : ""));
+    if (!options.common.is_json) {
+      apply.print_differences();
+    }
+  }
+  if (options.common.is_json) {
+    print_json_result(apply, node, is_stored && status == ok, differences);
+  } else if (status == ok && (apply.written() != 0 || options.stores)) {
+    print(fmt::format("all {} values are as in the file{}\n", apply.compared(),
+                      is_stored ? ", also after a reset of the device"
+                                : fmt::format("; node {0} is pre-operational: lexican nmt start {0}", node)));
+  }
+  return status;
+}
+
+int run_apply(const ApplyOptions& options) {
+  std::string why;
+  const std::optional<describe::Description> description = describe::read_description(options.file, why);
+  if (!description) {
+    print_message(why);
+    return usage;
+  }
+  const std::uint8_t commissioned = description->device()->commissioning.node_id.value;
+  const std::uint8_t node =
+      options.node.empty() ? (commissioned <= 127 ? commissioned : std::uint8_t{0}) : node_of(options.node);
+  if (node == 0) {
+    print_message(options.node.empty() ? options.file + " has no node-ID; give it by -n NODE"
+                                       : "'" + options.node + "' is no node-ID, which is 1 to 127");
+    return usage;
+  }
+  int status = ok;
+  std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
+  if (bus == nullptr) {
+    return status;
+  }
+  Session session(std::move(bus), node);
+  Apply apply(options, session, *description, node);
+  if (!apply.has_downloads()) {
+    print_message(options.file + " has no values that can be written; lexican dump reads a DCF that has");
+    return usage;
+  }
+  Target target;
+  target.node = node;
+  target.name = "identity (1018h)";
+  Transfer transfer;
+  const std::optional<describe::Identity> identity = read_identity(session.sdo(), options.common.timeout, transfer);
+  if (!identity && (transfer.code == CO_SDO_ERR_TIMEOUT || session.is_interrupted())) {
+    return report_failure(session, target, transfer);
+  }
+  const std::string other = other_device(description->device()->identity, identity);
+  if (!other.empty() && !options.is_forced) {
+    print_message(other + "; --force applies it all the same");
+    return refused;
+  }
+  print_left_out(apply);
+  return apply_to(session, apply, node, options);
+}
+
+}  // namespace
+
+Verb add_apply(CommandLine& line) {
+  const auto options = std::make_shared<ApplyOptions>();
+  Arguments arguments = line.add_command("apply", "Write the configuration of a DCF into a device");
+  arguments.add_option("file", options->file, "DCF or XDC with the values, such as lexican dump writes it").required();
+  arguments.add_option("-n,--node", options->node, "Node-ID of the device; default: that of the file");
+  arguments.add_flag("--diff", options->shows_only, "Only show what differs");
+  arguments.add_flag("--store", options->stores, "Store the parameters (1010h), reset the device, and compare again");
+  arguments.add_flag("--force", options->is_forced, "Also if the device has another vendor-ID or product code");
+  add_bus_options(arguments, options->common);
+  add_timeout_option(arguments, options->common, 1000);
+  arguments.end_help(
+      "Examples:\n"
+      "  lexican apply drive5.dcf --diff -i can0\n"
+      "  lexican apply drive5.dcf -n 6 --store -i can0");
+  return {arguments, [options] { return finish(options->common, run_apply(*options)); }};
+}
+
+}  // namespace lexican::program
