@@ -34,7 +34,7 @@ answers "help of the boards" 0 "*mps2-an385*--serve*" --bare-metal --help
 
 answers "unknown option" 2 "demo/run: unknown option '--frames' of the node*--every-frame*" --frames
 answers "unknown option with a value" 2 "demo/run: unknown option '--id' of the node*" --id=5
-answers "unknown program" 2 "demo/run: unknown program 'slave'; one of lexican, master, thermometer*" slave
+answers "unknown program" 2 "demo/run: unknown program 'slave'; one of tour, lexican, master, thermometer*" slave
 answers "the option without its dashes" 2 "demo/run: unknown program 'serve'; * demo/run --serve" serve
 answers "a command without its program" 2 "demo/run: unknown program 'lss'; * demo/run master lss" lss scan
 answers "missing value" 2 "demo/run: option '--node-id' of the node needs a value*" --serve --node-id
