@@ -26,7 +26,8 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
-PAGES = [*sorted((ROOT / "tools/lexican/docs").glob("*.md")), ROOT / "docs/start/5-find-a-device.md", ROOT / "README.md"]
+PAGES = [*sorted((ROOT / "tools/lexican/docs").glob("*.md")), *sorted((ROOT / "docs/start").glob("[56]-*.md")),
+         ROOT / "README.md"]
 DEVICE = "/dev/ttyACM0"
 BUS = f"slcan:{DEVICE}@500k"
 NODE_ARGUMENTS = ["--serial", str(0x80BBBA4B)]  # the serial number in the pages
@@ -35,7 +36,7 @@ MOST_SECONDS = 30
 HEARTBEAT_SECONDS = 1.2  # and some more
 LISTENING_SECONDS = 5  # of a command that ends with Ctrl-C, if fewer lines come than are expected
 
-BLOCK = re.compile(r"(?P<comments>(?:^<!-- .* -->\n)*)^```text\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"(?P<comments>(?:^<!-- [^\n]* -->\n)*)^```text\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMENT = re.compile(r"<!-- (before|not run): (.*) -->")
 
 # Durations, and the numbers of frames, differ from run to run; all else has to be equal.

@@ -949,7 +949,7 @@ TEST_CASE("lexican scan: devices with state, profile, identity and name") {
   CHECK(without_times(ran.out) ==
         "node  state            profile         vendor:product     serial    name\n"
         "   5  not seen         402 drive       00000100:00000402  000001A2  SD-400\n"
-        "  12  pre-operational  -               -:-                -         \n"
+        "  12  pre-operational  -               -:-                -\n"
         " 127  not seen         402 drive       00000100:00000402  000001A2  SD-400\n"
         "3 nodes in T s\n");
   CHECK(ran.err == "");

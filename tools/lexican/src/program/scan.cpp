@@ -90,10 +90,13 @@ void print_table(const Devices& found, const Files& files) {
         !has_files ? ""
                    : "  " + (file == files.end() ? "-" : file->second.path) +
                          (file != files.end() && file->second.is_uploaded ? " (uploaded from 1021h)" : "");
-    print(fmt::format("{:>4}  {:<16} {:<15} {:<17}  {:<8}  {:<{}}{}\n", device.found.node,
-                      device.found.state ? state_text(*device.found.state) : "not seen", profile_text(device.found),
-                      number_text(device.vendor) + ':' + number_text(device.product), number_text(device.serial),
-                      device.name, width, description));
+    std::string line =
+        fmt::format("{:>4}  {:<16} {:<15} {:<17}  {:<8}  {:<{}}{}", device.found.node,
+                    device.found.state ? state_text(*device.found.state) : "not seen", profile_text(device.found),
+                    number_text(device.vendor) + ':' + number_text(device.product), number_text(device.serial),
+                    device.name, width, description);
+    line.erase(line.find_last_not_of(' ') + 1);
+    print(line + '\n');
   }
   for (const LssAddress& address : found.unconfigured) {
     print(fmt::format("   ?  {:<16} {:<15} {:08X}:{:08X}  {:08X}\n", "no node-ID", "LSS", address[0], address[1],
