@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Device for the tests of lexican, described by fixtures/device.eds:
-//   lexican_test_device BUS NODE-ID [silent] [slow] [no-revision] [eds=FILE]
+//   lexican_test_device BUS NODE-ID [silent] [slow] [no-revision] [serial=HEX] [eds=FILE]
 // NODE-ID 255: it has none, and is an LSS slave; silent: has a heartbeat and no SDO server; slow: processes frames
 // every 50 ms; no-revision: refuses 1018h:03; eds=FILE: stores this file in 1021h. Prints "ready" after its boot-up,
 // then "request" for the first SDO request, and "abort CODE" for each abort of the client. Runs until SIGTERM.
@@ -193,6 +193,11 @@ int main(int number, char** arguments) {
     }
   }
   for (const std::string& word : words) {
+    if (word.compare(0, 7, "serial=") == 0) {
+      std::find_if(std::begin(objects), std::end(objects), [](const CO_OBJ& object) {
+        return object.Key >> 8 == 0x101804;
+      })->Data = static_cast<CO_DATA>(std::strtoul(word.c_str() + 7, nullptr, 16));
+    }
     if (word.compare(0, 4, "eds=") == 0) {
       std::ifstream file(word.substr(4), std::ios::binary);
       eds.assign(std::istreambuf_iterator<char>(file), {});

@@ -25,6 +25,7 @@ class Schema {
   static bool has_type(const Json& value, const std::string& type) {
     return type == "object"    ? value.is_object()
            : type == "array"   ? value.is_array()
+           : type == "null"    ? value.is_null()
            : type == "string"  ? value.is_string()
            : type == "boolean" ? value.is_boolean()
            : type == "integer" ? value.is_number_integer()

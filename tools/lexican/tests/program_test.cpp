@@ -165,6 +165,7 @@ TEST_CASE("lexican: without arguments all verbs are listed") {
         "  dump       Read the configuration of a device into a DCF\n"
         "  apply      Write the configuration of a DCF into a device\n"
         "  nmt        Change the NMT state of a device, or of all\n"
+        "  lss        Give devices a node-ID or a bit rate by LSS\n"
         "  share      Hand one adapter to many programs\n"
         "  completion Print what a shell needs to complete verbs and options\n"
         "  man        Print the manual page, for man -l or man1\n"
@@ -981,7 +982,8 @@ TEST_CASE("lexican scan: a device without node-ID has a line") {
   const Bench bench{255};
   const Ran ran = bench.run("scan", {"--timeout", "160"});
   CHECK(has(ran.out,
-            "   ?  no node-ID       LSS             00000100:00000402  000001A2\n0 nodes and 1 without node-ID in"));
+            "   ?  no node-ID       LSS             00000100:00000402  000001A2  lexican lss assign "
+            "000001A2=NODE\n0 nodes and 1 without node-ID in"));
   CHECK(ran.err == "");
   CHECK(ran.status == 0);
   const Ran json = bench.run("scan", {"--json", "--timeout", "160"});
@@ -1366,4 +1368,70 @@ TEST_CASE("lexican apply: another device, and files without values") {
   write_bytes(bench.dcf, dcf);
   CHECK(bench.apply({"-n", "128"}).status == 2);
   CHECK(bench.apply({"-n", "7", "--timeout", "50"}).status == 3);
+}
+
+TEST_CASE("lexican lss: devices without node-ID are found, and receive one") {
+  Bench bench{5};
+  bench.add(255, "serial=A7");
+  const std::string first = "00000100:00000402:00010000:000000A7  lexican lss assign 000000A7=NODE\n";
+  check(bench.run("lss", {"scan"}), 0, first + "1 device without node-ID\n", "");
+  CHECK(has(bench.run("scan", {}).out, "000000A7  lexican lss assign 000000A7=NODE\n"));
+  const std::string info =
+      "vendor-ID        00000100h\nproduct code     00000402h\nrevision number  00010000h\n"
+      "serial number    000000A7h\nnode-ID          none\n";
+  check(bench.run("lss", {"info"}), 0, info, "");
+  check(bench.run("lss", {"info", "a7"}), 0, info, "");
+  check(bench.run("lss", {"info", "100:402:10000:A7"}), 0, info, "");
+  const Ran json = bench.run("lss", {"info", "--json"});
+  CHECK(fault_of(json.out, "lss") == "");
+  CHECK(Json::parse(json.out)["node"].is_null());
+  check(bench.run("lss", {"assign", "A7=5"}), 1, "",
+        "lexican: node-ID 5 is that of another device; choose one that is free\n");
+  check(bench.run("lss", {"assign", "A8=6"}), 3, "",
+        "lexican: no device without node-ID has the serial number 000000A8; lexican lss scan shows all\n");
+  check(bench.run("lss", {"assign", "A7=6"}), 0, "000000A7 is node 6\n", "");
+  CHECK(has(bench.run("lss", {"info", "-n", "6"}).out, "node-ID          6\n"));
+  check(bench.run("lss", {"scan"}), 3, "0 devices without node-ID\n", "");
+  check(bench.run("lss", {"info", "100:402:10000:A9", "--timeout", "100"}), 1, "",
+        "lexican: LSS: 0x00000100 0x00000402 0x00010000 0x000000A9 was found, but does not answer to its address\n");
+}
+
+TEST_CASE("lexican lss: a plan, and two devices with the same address") {
+  Bench bench;
+  const std::string plan = bench.directory / "plan.csv";
+  bench.add(255, "serial=A7");
+  bench.add(255, "serial=A8");
+  write_bytes(plan, "serial,node,place\n000000a7, 6, left\n\n# later\n0xA8,7\n");
+  const Ran ran = bench.run("lss", {"assign", plan, "--json"});
+  CHECK(fault_of(ran.out, "lss") == "");
+  CHECK(ran.status == 0);
+  CHECK(Json::parse(lines_of(ran.out)[1])["node"] == 7);
+  check(bench.run("read", {"7", "1018:4"}), 0, "1018h:04 serial number = 000000A8h (u32)\n", "");
+  bench.add(255, "serial=B1");
+  bench.add(255, "serial=B1");
+  const Ran twice = bench.run("lss", {"assign", "B1=8"});
+  CHECK(twice.status == 1);
+  CHECK(has(twice.err, "LSS: "));
+  CHECK(bench.run("read", {"8", "1000", "--timeout", "50"}).status == 3);
+  for (const char* const line : {"1,A7", "A7,0", "A7,128", "A7", "123456789,5", "1:2:3,5", "1:2:3:4:5,5"}) {
+    write_bytes(plan, std::string("serial,node\n") + line + "\n");
+    check(bench.run("lss", {"assign", plan}), 2, "",
+          "lexican: " + plan + ", line 2: '" + line + "' is not SERIAL,NODE, such as 000001A2,6\n");
+  }
+  write_bytes(plan, "A7,6\nA8,6\n");
+  check(bench.run("lss", {"assign", plan}), 2, "", "lexican: node-ID 6 is given twice\n");
+  CHECK(bench.run("lss", {"assign"}).status == 2);
+  CHECK(bench.run("lss", {"assign", bench.directory / "none.csv"}).status == 2);
+  CHECK(bench.run("lss", {"info", "x"}).status == 2);
+}
+
+TEST_CASE("lexican lss: the bit rate of all devices") {
+  Bench bench{5};
+  bench.add(255, "serial=A7");
+  check(bench.run("lss", {"rate", "250k", "--delay", "10"}), 0,
+        "2 devices have 250 kbit/s until their reset; the next command needs this rate\n", "");
+  const Ran odd = bench.run("lss", {"rate", "333k", "--delay", "10"});
+  CHECK(odd.status != 0);
+  CHECK(bench.run("lss", {"rate"}).status == 2);
+  CHECK(bench.run("lss", {"rate", "fast"}).status == 2);
 }

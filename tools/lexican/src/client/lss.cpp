@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "client/lss_master.hpp"
-#include "client/sdo_client.hpp"
 #include "host/exit.hpp"
 #include "host/loop.hpp"
 #include "host/node.hpp"
@@ -184,18 +183,46 @@ int carry_out(const LssRequest& request, Host& host, std::ostream& out, std::ost
   return done ? exit_ok : (cancelled ? exit_interrupted : exit_failed);
 }
 
-bool find_unconfigured(Host& host, LssMaster::Times times, const std::function<void(const LssAddress&)>& found,
-                       std::string& fault) {
-  ClientDictionary dictionary(no_sdo);
-  Node node({own_id, host.master_can(), host.master_timer(), dictionary.table()});
-  Loop loop(host, {&node});
-  LssMaster master(node, loop, times);
-  CONodeStart(&node.stack());
-  const bool done = master.run(COLssmSwitchGlobal, waiting) && scan_nodes(master, found);
-  fault = done ? std::string() : master.fault();
-  master.run(COLssmSwitchGlobal, waiting);
-  loop.flush(flush_time);
+LssSession::LssSession(Host& host, LssMaster::Times times)
+    : dictionary_(no_sdo),
+      node_({own_id, host.master_can(), host.master_timer(), dictionary_.table()}),
+      loop_(host, {&node_}),
+      master_(node_, loop_, times) {
+  CONodeStart(&node_.stack());
+  release();
+}
+
+LssSession::~LssSession() {
+  release();
+  loop_.flush(flush_time);
+}
+
+bool LssSession::find_unconfigured(const std::function<void(const LssAddress&)>& found) {
+  return scan_nodes(master_, found);
+}
+
+bool LssSession::select(const LssAddress& address) { return release() && verify_address(master_, address); }
+
+bool LssSession::set_node_id(std::uint8_t id) { return lexican::set_node_id(master_, id); }
+
+bool LssSession::set_bit_rate(std::uint32_t bit_rate) { return master_.run(COLssmConfigureBitTiming, bit_rate); }
+
+bool LssSession::store() { return master_.run(COLssmStore); }
+
+bool LssSession::inquire_node_id(std::uint8_t& id) {
+  const bool done = master_.inquire(COLssmInquireNodeId);
+  id = static_cast<std::uint8_t>(master_.value());
   return done;
+}
+
+bool LssSession::release() { return master_.run(COLssmSwitchGlobal, waiting); }
+
+bool LssSession::activate(const std::vector<LssAddress>& slaves, std::uint16_t delay) {
+  return release() && select_all(master_, slaves) && master_.run(COLssmActivateBitTiming, delay, std::uint32_t{0});
+}
+
+std::string address_name(const LssAddress& address) {
+  return text("%08X:%08X:%08X:%08X", address[0], address[1], address[2], address[3]);
 }
 
 #else

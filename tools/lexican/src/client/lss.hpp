@@ -5,9 +5,11 @@
 
 #include <functional>
 #include <ostream>
+#include <vector>
 
 #include "client/arguments.hpp"
 #include "client/lss_master.hpp"
+#include "client/sdo_client.hpp"
 #include "host/host.hpp"
 
 namespace lexican {
@@ -18,10 +20,45 @@ int carry_out(const LssRequest& request, Host& host, std::ostream& out, std::ost
 
 #if USE_LSS_MASTER
 
-/// Finds the nodes without node-ID by fastscan, and calls \a found for each; all slaves are then in the state waiting.
-/// \retval false  \a fault says why the search has ended early
-bool find_unconfigured(Host& host, LssMaster::Times times, const std::function<void(const LssAddress&)>& found,
-                       std::string& fault);
+/// A separate node on the bus as LSS master. All slaves are in the state waiting at the begin and at the end. If a
+/// function returns false, fault() says why.
+class LssSession {
+ public:
+  /// \a host must outlive it.
+  LssSession(Host& host, LssMaster::Times times);
+  ~LssSession();
+  LssSession(const LssSession&) = delete;
+  LssSession& operator=(const LssSession&) = delete;
+
+  /// Finds the slaves without node-ID by fastscan, and calls \a found for each.
+  bool find_unconfigured(const std::function<void(const LssAddress&)>& found);
+  /// Switches a slave to the state configuration: the only one that answers to its address.
+  bool select(const LssAddress& address);
+  /// Configures the node-ID of the selected slave. If several slaves answer, none keeps it.
+  bool set_node_id(std::uint8_t id);
+  /// Configures the bit rate of the selected slave, in bit/s; activate() switches to it.
+  bool set_bit_rate(std::uint32_t bit_rate);
+  /// Lets the selected slave store node-ID and bit rate.
+  bool store();
+  /// Inquires the node-ID of the selected slave. \a id: 255 if it has none.
+  bool inquire_node_id(std::uint8_t& id);
+  /// Switches all slaves to the state waiting. A slave that has received a node-ID boots with it.
+  bool release();
+  /// Activates the bit rates of these slaves together, after \a delay ms. Nobody sends \a delay ms before and after.
+  bool activate(const std::vector<LssAddress>& slaves, std::uint16_t delay);
+
+  std::string fault() const { return master_.fault(); }
+  bool is_cancelled() const { return master_.cancelled(); }
+
+ private:
+  ClientDictionary dictionary_;
+  Node node_;
+  Loop loop_;
+  LssMaster master_;
+};
+
+/// Returns "00000100:00000402:00010000:000001A2".
+std::string address_name(const LssAddress& address);
 
 #endif
 

@@ -99,8 +99,8 @@ void print_table(const Devices& found, const Files& files) {
     print(line + '\n');
   }
   for (const LssAddress& address : found.unconfigured) {
-    print(fmt::format("   ?  {:<16} {:<15} {:08X}:{:08X}  {:08X}\n", "no node-ID", "LSS", address[0], address[1],
-                      address[3]));
+    print(fmt::format("   ?  {:<16} {:<15} {:08X}:{:08X}  {:08X}  lexican lss assign {:08X}=NODE\n", "no node-ID",
+                      "LSS", address[0], address[1], address[3], address[3]));
   }
 }
 

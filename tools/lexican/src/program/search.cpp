@@ -184,9 +184,10 @@ Devices find_devices(Host& host, Line& line, std::uint32_t timeout) {
     }
   }
   if (answers.has_unconfigured && !line.is_ended()) {
-    find_unconfigured(
-        host, {lss_timeout, std::max(timeout / 4, 1U)},
-        [&](const LssAddress& address) { result.unconfigured.push_back(address); }, result.lss_fault);
+    LssSession lss(host, {lss_timeout, std::max(timeout / 4, 1U)});
+    const bool is_complete =
+        lss.find_unconfigured([&](const LssAddress& address) { result.unconfigured.push_back(address); });
+    result.lss_fault = is_complete ? std::string() : lss.fault();
   }
   return result;
 }

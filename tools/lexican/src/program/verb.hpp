@@ -39,6 +39,7 @@ Verb add_apply(CommandLine& line);
 Verb add_completion(CommandLine& line);
 Verb add_dump(CommandLine& line);
 Verb add_help(CommandLine& line);
+Verb add_lss(CommandLine& line);
 Verb add_man(CommandLine& line);
 Verb add_mon(CommandLine& line);
 Verb add_nmt(CommandLine& line);
