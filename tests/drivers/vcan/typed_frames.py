@@ -7,6 +7,7 @@ typed_frames.py slcan URL NODE-ID
 Sends SDO frames to the demo node by python-can, and checks the answers. With socketcand and slcan, the bus is that of
 `lexican share`, where frames without a pause must arrive, too. Prints "ok NAME" or "not ok NAME: DETAIL" for each case.
 """
+import encodings.idna  # of socket addresses
 import sys
 import time
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <map>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -362,6 +363,19 @@ TEST_CASE("network: a concise DCF disables a PDO while it changes, with values i
         "04000000"
         "58027F00");
   CHECK(concise_dcf({}) == std::string(4, '\0'));
+}
+
+TEST_CASE("network: a value that does not fit its type is not downloaded, nor is its PDO") {
+  const std::string entries = variable(0x2010, 5, "$NODEID+0xFF") + variable(0x2011, 7, "$NODEID+0xFFFFFFFF") +
+                              variable(0x2012, 5, "$NODEID+0xFA") + pdo(0x1800, "$NODEID+0xFFFFFFFF", "255", 1);
+  const std::string dcf = std::regex_replace(entries, std::regex("DefaultValue="), "ParameterValue=");
+  std::string uncoded;
+  const std::vector<Download> downloads =
+      codict::downloads_of(device_of(dcf), 5, [&](std::uint16_t index, std::uint8_t sub_index, const Entry&) {
+        uncoded += std::to_string(index) + ':' + std::to_string(sub_index) + ' ';
+      });
+  CHECK(downloads_text(downloads) == "2000:0=0000 2012:0=FF");
+  CHECK(uncoded == "8208:0 8209:0 6144:1 ");
 }
 
 TEST_CASE("network: the generated files of the example are read as the same network") {

@@ -842,12 +842,12 @@ TEST_CASE("slcan server: answers the commands of a program that has connected, a
   REQUIRE(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends) == 0);
   Fd peer;
   peer = ends[0];
-  const std::unique_ptr<Bus> bus = serve_slcan(ends[1], 250000);
-  CHECK(bus->bit_rate() == 250000);
+  const std::unique_ptr<Bus> bus = serve_slcan(ends[1], 500000);
+  CHECK(bus->bit_rate() == 500000);
   CHECK(bus->send(frame("123#")));  // discarded: the channel is closed
-  CHECK(write_text(peer, "C\rS6\rO\rt1230\rT12345678101\rQ\r" + std::string(300, 'x') + '\r', *bus) ==
+  CHECK(write_text(peer, "C\rS5\rS6\rO\rt1230\rT12345678101\rQ\r" + std::string(300, 'x') + '\r', *bus) ==
         Texts{"123#", "12345678#01"});
-  CHECK(read_text(peer, 9) == "\r\r\rz\rZ\r\a\a");
+  CHECK(read_text(peer, 10) == "\r\a\r\rz\rZ\r\a\a");
   CHECK(bus->send(frame("124#R2")));
   CHECK(read_text(peer, 6) == "r1242\r");
   unsigned sent = 0;

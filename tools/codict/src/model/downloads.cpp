@@ -81,7 +81,8 @@ class DownloadList {
 /// Returns the value in force; nothing if it is no number.
 std::optional<std::uint64_t> DownloadList::number(std::uint16_t index, std::uint8_t sub_index) const {
   const Entry* const entry = device_.find(index, sub_index);
-  return entry != nullptr && value_in_force(*entry).is_integer()
+  const bool is_coded = entry != nullptr && sdo_bytes(device_, *entry, value_in_force(*entry), node_id_);
+  return is_coded && value_in_force(*entry).is_integer()
              ? std::optional(value_in_force(*entry).integer_for(node_id_).bits())
              : std::nullopt;
 }
@@ -120,6 +121,10 @@ void DownloadList::add_mapping(const Object& object) {
     return sub.sub_index != 0 && is_configured(&sub);
   });
   const bool is_changeable = count != nullptr && is_writable(count->access.value);
+  if (is_configured(count) && !number(object.index, 0)) {
+    uncoded_(object.index, 0, *count);
+    return;
+  }
   if (is_changeable && has_entries) {
     add_number(object.index, 0, 0, 1, true);
   }
@@ -144,6 +149,10 @@ void DownloadList::add_pdo(const Pdo& pdo) {
   const Entry* const cob_id = pdo.parameter(1);
   const std::optional<std::uint64_t> value =
       pdo.communication != nullptr ? number(pdo.communication->index, 1) : std::nullopt;
+  if (is_configured(cob_id) && !value) {
+    uncoded_(pdo.communication->index, 1, *cob_id);
+    return;
+  }
   const bool is_switched = cob_id != nullptr && is_writable(cob_id->access.value) && value;
   if (is_switched) {
     add_number(pdo.communication->index, 1, *value | cob_id_invalid, 4, (*value & cob_id_invalid) == 0);
@@ -174,6 +183,9 @@ std::optional<std::string> sdo_bytes(const Device& device, const Entry& entry, c
   switch (value.kind) {
     case Value::Kind::integer:
       if (type.bits == 0 || type.bits > 64 || type.kind == TypeKind::real) {
+        return std::nullopt;
+      }
+      if (value.adds_node_id && !fits_unsigned(value.integer_for(node_id), type.bits)) {
         return std::nullopt;
       }
       return little_endian(value.integer_for(node_id).bits(), (type.bits + 7U) / 8U);

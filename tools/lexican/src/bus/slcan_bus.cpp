@@ -568,6 +568,8 @@ class AnsweringBus : public SlcanBus {
   using SlcanBus::SlcanBus;
 
  protected:
+  /// Returns whether the bus can have a bit rate.
+  virtual bool accepts_rate(std::uint32_t /*rate*/) const { return true; }
   /// Begins with a closed channel.
   void close_channel() {
     channel_ = Channel::closed;
@@ -636,6 +638,9 @@ class AnsweringBus : public SlcanBus {
     std::size_t code = 0;
     if (channel_ != Channel::closed || line_.size() != 2 || !parse_number(std::string_view(line_).substr(1), code) ||
         code >= rates.size()) {
+      return false;
+    }
+    if (!accepts_rate(rates[code])) {
       return false;
     }
     bit_rate_ = rates[code];
@@ -756,6 +761,7 @@ class ClientBus : public AnsweringBus {
 
  private:
   std::size_t space() const override { return most_waiting; }
+  bool accepts_rate(std::uint32_t rate) const override { return bit_rate_ == 0 || rate == bit_rate_; }
 };
 
 /// Returns a bus that is open.

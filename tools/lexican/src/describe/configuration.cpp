@@ -22,10 +22,10 @@ struct Commands {
   std::uint16_t last;
 };
 
-/// Errors are cleared, parameters stored and restored, the configuration marked as verified, commands executed, and
-/// programs loaded.
-constexpr Commands commands[] = {
-    {0x1003, 0x1003}, {0x1010, 0x1011}, {0x1020, 0x1020}, {0x1023, 0x1026}, {0x1F50, 0x1F5F}};
+/// Errors are cleared, parameters stored and restored, the configuration marked as verified, commands executed,
+/// programs loaded, and NMT commands sent.
+constexpr Commands commands[] = {{0x1003, 0x1003}, {0x1010, 0x1011}, {0x1020, 0x1020},
+                                 {0x1023, 0x1026}, {0x1F50, 0x1F5F}, {0x1F82, 0x1F82}};
 
 bool is_command(const codict::Device& device, std::uint16_t index) {
   const bool is_listed = std::any_of(std::begin(commands), std::end(commands), [=](const Commands& range) {
@@ -184,6 +184,15 @@ bool store_value(codict::Device& device, const EntryKey& key, std::uint8_t node,
   }
   entry->actual_value.edit() = std::move(value);
   return true;
+}
+
+void store_default(codict::Device& device, const EntryKey& key, std::uint32_t value) {
+  if (codict::Entry* const entry = entry_of(device, key)) {
+    entry->default_value.kind = codict::Value::Kind::integer;
+    entry->default_value.integer = value;
+    entry->default_value.text = fmt::format("0x{:08X}", value);
+    entry->default_value.is_given = true;
+  }
 }
 
 std::string to_dcf(codict::Device device, std::uint8_t node, std::uint32_t bit_rate, const std::string& file_name) {

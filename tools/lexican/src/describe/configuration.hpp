@@ -35,6 +35,9 @@ Part part_of(const codict::Device& device, const EntryKey& key, const std::set<E
 /// Returns whether two values of an entry are the same: a text may be filled with zeros.
 bool is_equal(const codict::Device& device, const EntryKey& key, Bytes one, Bytes other);
 
+/// Stores the value of a device that the description may not have, as its default: the device type (1000h).
+void store_default(codict::Device& device, const EntryKey& key, std::uint32_t value);
+
 /// Stores the value of a device as ParameterValue. The COB-ID of a default that contains the node-ID becomes
 /// $NODEID + base, so that it fits another node, too.
 /// \retval false  a DCF cannot express it

@@ -33,6 +33,11 @@ Interruption::~Interruption() {
   handle(SIGTERM, happened() ? SIG_IGN : SIG_DFL);
 }
 
-bool Interruption::happened() { return interrupted != 0; }
+bool Interruption::happened() {
+  sigset_t pending;
+  sigpending(&pending);  // a wait that does not have to wait does not deliver them
+  interrupted = interrupted != 0 || sigismember(&pending, SIGINT) == 1 || sigismember(&pending, SIGTERM) == 1 ? 1 : 0;
+  return interrupted != 0;
+}
 
 }  // namespace lexican

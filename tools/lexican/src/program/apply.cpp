@@ -10,6 +10,7 @@
 
 #include "describe/configuration.hpp"
 #include "model/downloads.hpp"
+#include "model/pdo.hpp"
 #include "program/command.hpp"
 #include "program/identity.hpp"
 #include "trace/decode.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 using codict::Download;
 using describe::EntryKey;
+using describe::Part;
 
 constexpr std::uint16_t store_parameters = 0x1010;
 constexpr Micros boot_time = 10'000 * millisecond;
@@ -45,38 +47,54 @@ Bytes bytes_of(const Download& download) { return {download.bytes.begin(), downl
 class Apply {
  public:
   Apply(const ApplyOptions& options, Session& session, const describe::Description& description, std::uint8_t node)
-      : options_(options), session_(session), description_(description), device_(*description.device()) {
+      : options_(options), session_(session), description_(description), device_(*description.device()), node_(node) {}
+
+  /// Plans the downloads: reads the device type, and the COB-ID and the number of mapped objects of PDOs for which the
+  /// file has other parameters only.
+  /// \retval false  as compare()
+  bool plan() {
+    const std::vector<EntryKey> given = given_values();
+    if (!complete()) {
+      return false;
+    }
     const std::set<EntryKey> mapped = describe::mapped_entries(device_);
-    const auto leave_out = [this](std::uint16_t index, std::uint8_t sub_index, const codict::Entry&) {
-      left_out_.emplace_back(index, sub_index);
-    };
-    for (Download& download : codict::downloads_of(device_, node, leave_out)) {
-      const describe::Part part = describe::part_of(device_, {download.index, download.sub_index}, mapped);
-      if (part == describe::Part::configuration || part == describe::Part::write_only) {
-        is_compared_ += download.is_intermediate || part == describe::Part::write_only ? 0U : 1U;
-        downloads_.push_back(std::move(download));
-      } else {
-        left_out_.emplace_back(download.index, download.sub_index);
+    std::set<EntryKey> planned;
+    for (Download& download : codict::downloads_of(
+             device_, node_, [this](std::uint16_t index, std::uint8_t sub_index, const codict::Entry&) {
+               malformed_.emplace_back(index, sub_index);
+             })) {
+      const EntryKey key{download.index, download.sub_index};
+      const Part part = describe::part_of(device_, key, mapped);
+      if (part != Part::configuration && part != Part::write_only) {
+        continue;
+      }
+      planned.insert(key);
+      if (part == Part::write_only) {
+        write_only_.insert(key);
+      }
+      compared_ += is_compared(download) ? 1U : 0U;
+      downloads_.push_back(std::move(download));
+    }
+    for (const EntryKey& key : given) {
+      if (planned.count(key) == 0 && std::count(malformed_.begin(), malformed_.end(), key) == 0) {
+        left_out_.push_back(key);
       }
     }
+    return true;
   }
 
   /// Compares the values of the device with those of the file.
   /// \retval false  the device does not answer, or the program was interrupted: transfer() is the last one
   bool compare() {
     differences_.clear();
-    EntryCount count(is_compared_);
+    EntryCount count(compared_);
     for (const Download& download : downloads_) {
       const EntryKey key{download.index, download.sub_index};
-      const codict::Entry& entry = *device_.find(key.first, key.second);
-      if (download.is_intermediate || !codict::is_readable(entry.access.value)) {
+      if (!is_compared(download)) {
         continue;
       }
       count.next();
-      last_ = key;
-      constexpr std::uint32_t most = 65536;
-      transfer_ = session_.sdo().upload(key.first, key.second, {most, options_.common.timeout, {}});
-      if (!transfer_.done() && !is_refusal()) {
+      if (!read(key)) {
         return false;
       }
       const Bytes wanted = bytes_of(download);
@@ -120,6 +138,7 @@ class Apply {
         written_ += download.is_intermediate ? 0U : 1U;
       } else {
         refused_[key] = transfer_.code;
+        pdos.erase(download.communication);  // with a part of its parameters it must not be switched on
       }
     }
     return true;
@@ -150,50 +169,105 @@ class Apply {
   std::string name_of(const EntryKey& key) const { return description_.object(key.first, key.second); }
   const Transfer& transfer() const { return transfer_; }
   const EntryKey& last() const { return last_; }
-  std::size_t compared() const { return is_compared_; }
+  std::size_t compared() const { return compared_; }
   std::size_t written() const { return written_; }
   /// Returns true if the file has values that cannot be read from the device.
-  bool has_write_only() const {
-    return std::any_of(downloads_.begin(), downloads_.end(), [this](const Download& download) {
-      return !codict::is_readable(device_.find(download.index, download.sub_index)->access.value);
-    });
-  }
+  bool has_write_only() const { return !write_only_.empty(); }
   bool has_downloads() const { return !downloads_.empty(); }
   const std::vector<Difference>& differences() const { return differences_; }
   const std::map<EntryKey, std::uint32_t>& refused() const { return refused_; }
+  /// Values of the file that are not written: commands, process values, read-only ones.
   const std::vector<EntryKey>& left_out() const { return left_out_; }
+  /// Values of the file that do not fit their types.
+  const std::vector<EntryKey>& malformed() const { return malformed_; }
+  std::string text_of(const EntryKey& key) const { return device_.find(key.first, key.second)->actual_value->text; }
 
  private:
   bool is_refusal() const {
     return transfer_.fault.empty() && transfer_.code != CO_SDO_ERR_TIMEOUT && !session_.is_interrupted();
   }
 
+  bool is_compared(const Download& download) const {
+    const EntryKey key{download.index, download.sub_index};
+    return !download.is_intermediate && write_only_.count(key) == 0 && completed_.count(key) == 0;
+  }
+
+  std::vector<EntryKey> given_values() const {
+    std::vector<EntryKey> given;
+    codict::for_each_variable(device_, [&](std::uint16_t index, std::uint8_t sub_index, const codict::Entry& entry) {
+      if (!entry.actual_value->is_empty()) {
+        given.emplace_back(index, sub_index);
+      }
+    });
+    return given;
+  }
+
+  /// Reads what the order of the downloads depends on, and the file does not have.
+  bool complete() {
+    constexpr EntryKey device_type{0x1000, 0};
+    if (device_.find(device_type.first, device_type.second) != nullptr) {
+      if (!read(device_type)) {
+        return false;
+      }
+      if (transfer_.done() && transfer_.data.size() == 4) {
+        describe::store_default(device_, device_type, static_cast<std::uint32_t>(number_of(transfer_.data)));
+      }
+    }
+    std::vector<EntryKey> missing;
+    for (const codict::Pdo& pdo : codict::pdos_of(device_)) {
+      const bool has_mapping = pdo.mapping != nullptr && has_value(*pdo.mapping);
+      if (pdo.communication != nullptr && (has_mapping || has_value(*pdo.communication))) {
+        missing.emplace_back(pdo.communication->index, std::uint8_t{1});
+      }
+      if (has_mapping) {
+        missing.emplace_back(pdo.mapping->index, std::uint8_t{0});
+      }
+    }
+    for (const EntryKey& key : missing) {
+      const codict::Entry* const entry = device_.find(key.first, key.second);
+      if (entry == nullptr || !entry->actual_value->is_empty() || !codict::is_writable(entry->access.value)) {
+        continue;
+      }
+      if (!read(key)) {
+        return false;
+      }
+      if (transfer_.done() && describe::store_value(device_, key, node_, transfer_.data)) {
+        completed_.insert(key);
+      }
+    }
+    return true;
+  }
+
+  static bool has_value(const codict::Object& object) {
+    return std::any_of(object.subs.begin(), object.subs.end(),
+                       [](const codict::Sub& sub) { return !sub.actual_value->is_empty(); });
+  }
+
+  /// \retval false  as compare(); true also if the device has refused it
+  bool read(const EntryKey& key) {
+    constexpr std::uint32_t most = 65536;
+    last_ = key;
+    transfer_ = session_.sdo().upload(key.first, key.second, {most, options_.common.timeout, {}});
+    return transfer_.done() || is_refusal();
+  }
+
   const ApplyOptions& options_;
   Session& session_;
   const describe::Description& description_;
-  const codict::Device& device_;
+  codict::Device device_;
+  std::uint8_t node_;
+  std::set<EntryKey> write_only_;
+  std::set<EntryKey> completed_;  ///< read from the device, not of the file
+  std::vector<EntryKey> malformed_;
   std::vector<Download> downloads_;
   std::vector<EntryKey> left_out_;
-  std::size_t is_compared_ = 0;
+  std::size_t compared_ = 0;
   std::size_t written_ = 0;
   std::vector<Difference> differences_;
   std::map<EntryKey, std::uint32_t> refused_;
   Transfer transfer_;
   EntryKey last_{};
 };
-
-/// Returns why the file is for another device than this one; empty: it is for it.
-std::string other_device(const codict::Identity& file, const std::optional<describe::Identity>& device) {
-  if (!device) {
-    return {};  // it has no identity that could differ
-  }
-  const bool is_vendor = file.vendor_number.is_given && file.vendor_number.value != device->vendor;
-  const bool is_product = file.product_number.is_given && file.product_number.value != device->product;
-  return is_vendor || is_product
-             ? fmt::format("the file is for {:08X}:{:08X}, the device is {:08X}:{:08X}", file.vendor_number.value,
-                           file.product_number.value, device->vendor, device->product)
-             : std::string();
-}
 
 /// Prints the failure of the last transfer, and how to go on.
 int report_break(Session& session, const Apply& apply, std::uint8_t node) {
@@ -209,6 +283,8 @@ int report_break(Session& session, const Apply& apply, std::uint8_t node) {
 
 /// Stores the parameters, resets the device, and compares again.
 int store(Session& session, Apply& apply, std::uint8_t node, const Common& common) {
+  Transfer ignored;
+  const std::optional<describe::Identity> before = read_identity(session.sdo(), common.timeout, ignored);
   Target target;
   target.node = node;
   target.name = apply.name_of({store_parameters, 1});
@@ -225,6 +301,11 @@ int store(Session& session, Apply& apply, std::uint8_t node, const Common& commo
                     "shows after a power cycle whether all is there",
                     node));
     return session.is_interrupted() ? interrupted : no_answer;
+  }
+  const std::optional<describe::Identity> after = read_identity(session.sdo(), common.timeout, ignored);
+  if (before && (!after || after->vendor != before->vendor || after->product != before->product)) {
+    print_message(fmt::format("after the reset, another device answers as node {}", node));
+    return refused;
   }
   if (!apply.compare()) {
     return report_break(session, apply, node);
@@ -250,18 +331,46 @@ void print_json_result(const Apply& apply, std::uint8_t node, bool is_stored,
   print(json.dump() + '\n');
 }
 
-void print_left_out(const Apply& apply) {
-  if (!apply.left_out().empty()) {
-    std::string names;
-    for (const EntryKey& key : apply.left_out()) {
-      names += (names.empty() ? "" : ", ") + describe::key_of(key.first, key.second, key.second != 0);
-    }
-    print_note(fmt::format("not written from a file: {}", names));
+std::string names_in(const std::vector<EntryKey>& keys) {
+  constexpr std::size_t most = 8;
+  std::string names;
+  for (std::size_t n = 0; n < keys.size() && n < most; ++n) {
+    names += (n == 0 ? "" : ", ") + describe::key_of(keys[n].first, keys[n].second, keys[n].second != 0);
   }
+  return names + (keys.size() > most ? fmt::format(" and {} more", keys.size() - most) : "");
+}
+
+/// Prints the values of the file that cannot be written.
+/// \retval false  some do not fit their types, and --force is not given
+bool check_values(const Apply& apply, const ApplyOptions& options) {
+  for (const EntryKey& key : apply.malformed()) {
+    (options.is_forced ? print_note : print_message)(fmt::format("{}: {} = '{}' is no value of its type{}",
+                                                                 options.file, apply.name_of(key), apply.text_of(key),
+                                                                 options.is_forced ? "; it is left out" : ""));
+  }
+  if (!apply.malformed().empty() && !options.is_forced) {
+    print_message("nothing was written; --force leaves such values out");
+    return false;
+  }
+  if (!apply.left_out().empty()) {
+    print_note(fmt::format("not written from a file, as commands, process values or read-only: {}",
+                           names_in(apply.left_out())));
+  }
+  return true;
 }
 
 /// Compares, and writes what differs.
 int apply_to(Session& session, Apply& apply, std::uint8_t node, const ApplyOptions& options) {
+  if (!apply.plan()) {
+    return report_break(session, apply, node);
+  }
+  if (!check_values(apply, options)) {
+    return usage;
+  }
+  if (!apply.has_downloads()) {
+    print_message(options.file + " has no values that can be written; lexican dump reads a DCF that has");
+    return usage;
+  }
   if (!apply.compare()) {
     return report_break(session, apply, node);
   }
@@ -274,13 +383,16 @@ int apply_to(Session& session, Apply& apply, std::uint8_t node, const ApplyOptio
     if (options.common.is_json) {
       print_json_result(apply, node, false, differences);
     }
+    if (options.common.is_json && !differences.empty()) {
+      print_message(fmt::format("{} of {} values differ", differences.size(), apply.compared()));
+    }
     return differences.empty() ? ok : refused;
   }
   const bool has_work = !differences.empty() || apply.has_write_only() || options.stores;
-  int status = has_work
-                   ? agree(session.bus(), options.common,
-                           fmt::format("write {} of {} values to node {}", differences.size(), apply.compared(), node))
-                   : int{ok};
+  int status = has_work ? agree(session.bus(), options.common,
+                                fmt::format("write {} of {} values{} node {}", differences.size(), apply.compared(),
+                                            options.stores ? ", store all, and reset" : " to", node))
+                        : int{ok};
   if (status != ok) {
     return status;
   }
@@ -301,10 +413,13 @@ int apply_to(Session& session, Apply& apply, std::uint8_t node, const ApplyOptio
   }
   if (!apply.differences().empty() || !apply.refused().empty()) {
     status = refused;
-    print_message(fmt::format("after {}, {} of {} values differ{}", is_stored ? "the reset of the device" : "writing",
-                              apply.differences().size(), apply.compared(),
-                              options.stores && !is_stored ? "; nothing was stored" : ""));
-    if (!options.common.is_json) {
+    const std::string text = fmt::format("after {}, {} of {} values differ{}",
+                                         is_stored ? "the reset of the device" : "writing", apply.differences().size(),
+                                         apply.compared(), options.stores && !is_stored ? "; nothing was stored" : "");
+    if (options.common.is_json) {
+      print_message(text);
+    } else {
+      print(text + ":\n");
       apply.print_differences();
     }
   }
@@ -340,10 +455,6 @@ int run_apply(const ApplyOptions& options) {
   }
   Session session(std::move(bus), node);
   Apply apply(options, session, *description, node);
-  if (!apply.has_downloads()) {
-    print_message(options.file + " has no values that can be written; lexican dump reads a DCF that has");
-    return usage;
-  }
   Target target;
   target.node = node;
   target.name = "identity (1018h)";
@@ -352,12 +463,15 @@ int run_apply(const ApplyOptions& options) {
   if (!identity && (transfer.code == CO_SDO_ERR_TIMEOUT || session.is_interrupted())) {
     return report_failure(session, target, transfer);
   }
-  const std::string other = other_device(description->device()->identity, identity);
+  const codict::Identity& described = description->device()->identity;
+  const bool is_named = described.vendor_number.value != 0 || described.product_number.value != 0;
+  const std::string other = identity   ? other_identity(described, *identity)
+                            : is_named ? "the device does not have the vendor-ID and product code (1018h) of the file"
+                                       : std::string();
   if (!other.empty() && !options.is_forced) {
     print_message(other + "; --force applies it all the same");
     return refused;
   }
-  print_left_out(apply);
   return apply_to(session, apply, node, options);
 }
 
@@ -370,7 +484,8 @@ Verb add_apply(CommandLine& line) {
   arguments.add_option("-n,--node", options->node, "Node-ID of the device; default: that of the file");
   arguments.add_flag("--diff", options->shows_only, "Only show what differs");
   arguments.add_flag("--store", options->stores, "Store the parameters (1010h), reset the device, and compare again");
-  arguments.add_flag("--force", options->is_forced, "Also if the device has another vendor-ID or product code");
+  arguments.add_flag("--force", options->is_forced,
+                     "Also into a device with another identity, and without values that do not fit their types");
   add_bus_options(arguments, options->common);
   add_timeout_option(arguments, options->common, 1000);
   arguments.end_help(

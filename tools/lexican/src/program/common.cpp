@@ -18,11 +18,35 @@ using host_bus::Micros;
 
 namespace {
 
+/// Returns the number of bytes of the character of UTF-8 that a text begins with; 0: it is none.
+std::size_t length_of_character(std::string_view text) {
+  const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[n]); };
+  const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+  bool is_valid = text.size() >= length && byte(0) < 0xF5 && (byte(0) < 0x80 || byte(0) >= 0xC2);
+  for (std::size_t n = 1; n < length && is_valid; ++n) {
+    is_valid = (byte(n) & 0xC0U) == 0x80;
+  }
+  return is_valid ? length : 0;
+}
+
+/// Returns whether a character of UTF-8 controls a terminal, or changes the direction of writing.
+bool is_control(std::string_view character) {
+  const std::string_view two = character.substr(0, 2);
+  const unsigned char last = static_cast<unsigned char>(character.back());
+  return (character.size() == 1 && (last < 0x20 || last == 0x7F)) ||
+         (character.size() == 2 && character.front() == '\xC2' && last < 0xA0) ||
+         (character.size() == 3 && two == "\xE2\x80" && last >= 0xAA && last <= 0xAE) ||
+         (character.size() == 3 && two == "\xE2\x81" && last >= 0xA6 && last <= 0xA9);
+}
+
 std::string printable(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    const bool is_control = (static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7F;
-    c = is_control ? '?' : c;
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = length_of_character(text);
+    const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+    const bool is_shown = length != 0 && (character == "\n" || !is_control(character));
+    result += is_shown ? character : std::string_view("?");
+    text.remove_prefix(character.size());
   }
   return result;
 }
@@ -264,7 +288,10 @@ void print_message(std::string_view text) {
   fault_messages() += (fault_messages().empty() ? "" : "\n") + std::string(text);
 }
 
-void print_note(std::string_view text) { fmt::print(stderr, "lexican: {}\n", printable(text)); }
+void print_note(std::string_view text) {
+  std::fflush(stdout);  // in one stream, the lines keep their order
+  fmt::print(stderr, "lexican: {}\n", printable(text));
+}
 
 int finish(const Common& common, int status) {
   if (common.is_json && status != ok) {

@@ -27,6 +27,7 @@ struct DumpOptions {
   std::optional<std::string> node;
   std::string output = "-";
   bool is_all = false;
+  bool is_forced = false;
 };
 
 /// Reads the configuration of a device, and counts what is left out.
@@ -42,6 +43,18 @@ class Dump {
       keys.emplace_back(index, sub_index);
     });
     describe::forget_values(device_);
+    constexpr EntryKey device_type{0x1000, 0};
+    if (device_.find(device_type.first, device_type.second) != nullptr) {
+      last_ = device_type;
+      transfer_ =
+          session_.sdo().upload(device_type.first, device_type.second, {SdoClient::small, options_.common.timeout, {}});
+      if (transfer_.code == CO_SDO_ERR_TIMEOUT || session_.is_interrupted()) {
+        return false;
+      }
+      if (transfer_.done() && transfer_.data.size() == 4) {
+        describe::store_default(device_, device_type, static_cast<std::uint32_t>(lexican::number_of(transfer_.data)));
+      }
+    }
     std::set<EntryKey> mapped;
     bool is_mapping_known = false;
     EntryCount count(keys.size());
@@ -53,8 +66,8 @@ class Dump {
       }
       count.next();
       const Part part = describe::part_of(device_, key, mapped);
-      ++parts_[part];
       const bool is_read = part == Part::configuration || (part == Part::read_only && options_.is_all);
+      parts_[part] += is_read ? 0U : 1U;
       if (is_read && !read(key)) {
         return false;
       }
@@ -184,11 +197,19 @@ int run_dump(DumpOptions& options) {
   if (!identity && (transfer.code == CO_SDO_ERR_TIMEOUT || session.is_interrupted())) {
     return report_failure(session, target, transfer);
   }
-  if (target.network.of(node).device() == nullptr) {
-    print_message("a dump needs the description of the device: --eds FILE (EDS, DCF, XDD or XDC)");
+  const codict::Device* const description = target.network.of(node).device();
+  if (description == nullptr) {
+    print_message(options.common.eds.empty()
+                      ? "a dump needs the description of the device: --eds FILE (EDS, DCF, XDD or XDC)"
+                      : fmt::format("no file of --eds is for node {0}: --eds {0}=FILE", node));
     return usage;
   }
-  Dump dump(options, session, node, *target.network.of(node).device());
+  const std::string other = identity ? other_identity(description->identity, *identity) : std::string();
+  if (!other.empty() && !options.is_forced) {
+    print_message(other + "; --force uses it all the same");
+    return refused;
+  }
+  Dump dump(options, session, node, *description);
   if (!dump.run()) {
     target.name = target.network.of(node).object(dump.last().first, dump.last().second);
     return report_failure(session, target, dump.transfer());
@@ -220,6 +241,7 @@ Verb add_dump(CommandLine& line) {
   arguments.add_option("node", options->node, "Node-ID of the device, 1 to 127");
   add_node_option(arguments, options->common);
   arguments.add_option("-o,--output", options->output, "File for the DCF; default: the standard output");
+  arguments.add_flag("--force", options->is_forced, "Also with the description of another device");
   arguments.add_flag("--all", options->is_all, "Also the values of read-only objects");
   add_bus_options(arguments, options->common);
   add_eds_option(arguments, options->common);

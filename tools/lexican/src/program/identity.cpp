@@ -35,6 +35,15 @@ std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t ti
   return identity;
 }
 
+std::string other_identity(const codict::Identity& described, const describe::Identity& device) {
+  const std::uint32_t vendor = described.vendor_number.value;
+  const std::uint32_t product = described.product_number.value;
+  const bool is_other = (vendor != 0 && vendor != device.vendor) || (product != 0 && product != device.product);
+  return is_other ? fmt::format("the file is for {:08X}:{:08X}, the device is {:08X}:{:08X}", vendor, product,
+                                device.vendor, device.product)
+                  : std::string();
+}
+
 std::optional<describe::Identity> identify_device(SdoClient& sdo, std::uint8_t node, const Common& common,
                                                   describe::Network& network, Transfer& transfer) {
   const std::optional<describe::Identity> identity = read_identity(sdo, common.timeout, transfer);

@@ -18,6 +18,10 @@ std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t ti
 std::optional<describe::Identity> identify_device(SdoClient& sdo, std::uint8_t node, const Common& common,
                                                   describe::Network& network, Transfer& transfer);
 
+/// Returns in words how the identity of a device differs from that of a description; empty: it does not. A vendor-ID or
+/// product code of 0 in the description stands for any.
+std::string other_identity(const codict::Identity& described, const describe::Identity& device);
+
 /// Returns true if a device may be asked for its description: the user can agree.
 bool may_upload(const Common& common);
 

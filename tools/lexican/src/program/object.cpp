@@ -215,8 +215,12 @@ std::string type_text(const ValueType& type) {
 }
 
 std::string shown(const Target& target, const Bytes& data) {
-  return target.is_type_given ? show(*target.type, data).text
-                              : target.network.of(target.node).show(target.object.index, target.object.sub_index, data);
+  if (!target.is_type_given) {
+    return target.network.of(target.node).show(target.object.index, target.object.sub_index, data);
+  }
+  std::string text = show(*target.type, data).text;
+  std::replace(text.begin(), text.end(), '\n', '?');  // a device must not write lines of its own
+  return text;
 }
 
 std::string line_of(const Target& target, const Bytes& data) {

@@ -52,6 +52,9 @@ HeardRate listen_for_rate(host_bus::Bus& bus, host_bus::BusOptions options, Micr
       count_frames(bus, stale_time, interruption);
       const Clock::time_point begin = Clock::now();
       heard.frames = count_frames(bus, time, interruption);
+      if (bus.refusal().find("the command S") != std::string::npos) {
+        continue;  // the adapter does not have this rate
+      }
       heard.is_refused = !bus.refusal().empty();
       if (heard.is_refused || Interruption::happened() || !bus.fault().empty()) {
         return heard;

@@ -20,7 +20,7 @@ struct ReadOptions : TransferOptions {
   std::uint32_t most = 16 * 1024 * 1024;
 };
 
-/// Returns the value as a number or truth value if its type is one, else as text.
+/// Returns the value as a number, a truth value or a text of printable characters; else null: the bytes are in "data".
 nlohmann::json json_value(const Target& target, const Bytes& data) {
   using Kind = ValueType::Kind;
   const Shown plain = target.type ? show(*target.type, data) : Shown{{}, "unknown"};
@@ -31,9 +31,9 @@ nlohmann::json json_value(const Target& target, const Bytes& data) {
     case Kind::unsigned_integer: return std::stoull(plain.text);
     case Kind::integer: return std::stoll(plain.text);
     case Kind::boolean: return plain.text == "1";
-    case Kind::text: return text.empty() && !data.empty() ? shown(target, data) : text;
+    case Kind::text: return text.empty() && !data.empty() ? nlohmann::json() : nlohmann::json(text);
     case Kind::real: return std::isfinite(real) ? nlohmann::json(real) : nlohmann::json(plain.text);
-    default: return shown(target, data);
+    default: return nullptr;
   }
 }
 

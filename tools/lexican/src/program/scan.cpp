@@ -199,6 +199,12 @@ int run_scan(const ScanOptions& options) {
   if (found.devices.empty() && found.unconfigured.empty()) {
     return report_silence(*bus, line);
   }
+  for (const Device& device : found.devices) {
+    if (device.found.answers > 1) {
+      print_note(fmt::format("node {} has answered one request {} times: several devices may have this node-ID",
+                             device.found.node, device.found.answers));
+    }
+  }
   const Files files = find_files(found, host, options.common);
   if (Interruption::happened()) {
     print_message("interrupted");

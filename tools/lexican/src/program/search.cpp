@@ -100,6 +100,7 @@ class Search {
                            frame.Data[2] == 0x10 && frame.Data[3] == 0x00;
     if (id == response_id && frame.DLC == 8 && is_answer) {
       Found& found = device(node);
+      ++found.answers;
       found.has_type = (frame.Data[0] & 0xE2U) == 0x42U;
       found.device_type = found.has_type ? CO_GET_LONG(&frame, 4) : 0;
       end_request(node);

@@ -52,6 +52,7 @@ struct Found {
   std::uint32_t device_type = 0;      ///< 1000h
   bool has_type = false;              ///< it has answered the upload of 1000h with a value, not with an abort
   std::optional<std::uint8_t> state;  ///< of its error control, if it was seen
+  unsigned answers = 0;               ///< to the request
 };
 
 struct Answers {

@@ -119,7 +119,11 @@ class Share {
     wanted.push_back(slcan_.wanted(buses_.size() - own_));
     wanted.push_back(adapter_->wanted());
     for (const auto& bus : buses_) {
-      wanted.push_back(bus->wanted());
+      pollfd program = bus->wanted();
+      if (waiting_) {  // the programs are not read meanwhile
+        program.events = static_cast<short>(program.events & ~POLLIN);
+      }
+      wanted.push_back(program);
     }
     const timespec timeout{0, is_busy_ ? 1'000'000L : 200'000'000L};
     ppoll(wanted.data(), wanted.size(), &timeout, &interruption.while_waiting());
