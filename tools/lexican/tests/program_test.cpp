@@ -278,7 +278,6 @@ TEST_CASE("lexican: a bus that cannot be opened is a bus fault, a wrong rate is 
            {"slcan:@500k", slcan},
            {"slcan-tcp:nowhere@500k", "lexican: 'nowhere' is not HOST:PORT, such as 127.0.0.1:29537 or [::1]:29537\n"},
            {"slcan-pty7", "lexican: slcan-pty has no further name: '7'\n"}}) {
-    CAPTURE(message);
     check(run({"nmt", "start", "5", "-i", name}), 2, "", message);
     check(run({"mon", "-i", name}), 2, "", message);
   }
@@ -403,7 +402,6 @@ TEST_CASE("lexican read: an index or sub-index that is wrong") {
                                                                                       {"12345h:1", "'12345h'" + index},
                                                                                       {"10g8:1", "'10g8'" + index},
                                                                                       {":4", "''" + index}}) {
-    CAPTURE(message);
     check(bench.run("read", {"5", word}), 2, "", "lexican: " + message);
     check(bench.run("read", {"5", word, "--eds", eds}), 2, "", "lexican: " + message);
     check(bench.run("read", {"9", word, "--yes"}), 2, "", "lexican: " + message);  // the device is not asked
@@ -718,10 +716,9 @@ TEST_CASE("lexican read, write: --json") {
     Json value;
     std::string text;
   };
-  for (const Value& each :
-       {Value{{"1018:4"}, 418, "000001A2h"}, Value{{"2003", "--eds", eds}, 0.5, "0.5"},
-        Value{{"2004", "--eds", eds}, true, "1"}, Value{{"1008"}, "SD-400", "\"SD-400\""},
-        Value{{"2002"}, Json(), "000003E8h"}, Value{{"2002", "--type", "u32"}, 1000, "1000"}}) {
+  for (const Value& each : {Value{{"1018:4"}, 418, "000001A2h"}, Value{{"2003", "--eds", eds}, 0.5, "0.5"},
+                            Value{{"2004", "--eds", eds}, true, "1"}, Value{{"1008"}, "SD-400", "\"SD-400\""},
+                            Value{{"2002"}, Json(), "000003E8h"}, Value{{"2002", "--type", "u32"}, 1000, "1000"}}) {
     CAPTURE(each.text);
     Words words = {"5", "--json"};
     words.insert(words.end(), each.words.begin(), each.words.end());

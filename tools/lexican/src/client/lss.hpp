@@ -44,7 +44,8 @@ class LssSession {
   bool inquire_node_id(std::uint8_t& id);
   /// Switches all slaves to the state waiting. A slave that has received a node-ID boots with it.
   bool release();
-  /// Activates the bit rates of these slaves together, after \a delay ms. Nobody sends \a delay ms before and after.
+  /// Activates the bit rates of these slaves together, after \a delay ms. No node sends frames for \a delay ms before
+  /// and after.
   bool activate(const std::vector<LssAddress>& slaves, std::uint16_t delay);
 
   std::string fault() const { return master_.fault(); }

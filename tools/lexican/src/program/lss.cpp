@@ -26,7 +26,7 @@ struct LssOptions {
   std::uint32_t delay = 1000;  ///< ms
 };
 
-/// What a device is named by: its serial number, or its whole address.
+/// The name of a device: its serial number, or its whole address.
 struct LssName {
   std::optional<std::uint32_t> serial_number;
   std::optional<LssAddress> address;

@@ -219,7 +219,7 @@ std::string shown(const Target& target, const Bytes& data) {
     return target.network.of(target.node).show(target.object.index, target.object.sub_index, data);
   }
   std::string text = show(*target.type, data).text;
-  std::replace(text.begin(), text.end(), '\n', '?');  // a device must not write lines of its own
+  std::replace(text.begin(), text.end(), '\n', '?');  // a device must not write further lines
   return text;
 }
 
