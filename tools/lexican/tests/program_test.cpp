@@ -1337,6 +1337,8 @@ TEST_CASE("lexican apply: a PDO is switched off while its parameters change, and
   const Ran wrong = bench.apply({"-n", "6"});
   CHECK(wrong.status == 1);
   CHECK(has(wrong.err, "1A01h:01 Second TPDO mapping parameter, First object refused: 0"));
+  CHECK(has(wrong.err, "lexican: 1801h: the rest of this PDO was not written, and it is not switched on\n"));
+  check(bench.run("read", {"6", "1801:1"}), 0, "1801h:01 TPDO communication parameter = C0000286h (u32)\n", "");
 }
 
 TEST_CASE("lexican apply: values that the device refuses, or does not keep") {
@@ -1379,6 +1381,17 @@ TEST_CASE("lexican apply: nothing is written if a value of the file does not fit
       "lexican: " + bench.dcf + ": 1017h Producer heartbeat time = '70000' is no value of its type; it is left out\n");
 }
 
+TEST_CASE("lexican apply: a value that must not be read is always written") {
+  Configured bench;
+  bench.set("1017", "250");
+  std::string dcf = bytes_of(bench.dcf);
+  dcf.insert(dcf.find("ParameterName", dcf.find("[1017]")), "ObjFlags=0x2\r\n");
+  write_bytes(bench.dcf, dcf);
+  check(bench.apply({"--diff"}), 0, "0 of 9 values differ\n", "");
+  CHECK(bench.apply({}).status == 0);
+  check(bench.run("read", {"5", "1017"}), 0, "1017h:00 producer heartbeat time = 250 (u16)\n", "");
+}
+
 TEST_CASE("lexican apply: the COB-ID of a PDO that the file does not have is that of the device") {
   Configured bench;
   check(bench.run("write", {"5", "1801:1", "0xC0000333"}), 0,
@@ -1399,8 +1412,13 @@ TEST_CASE("lexican dump, apply: commands and process values are not written from
   const std::size_t output = dcf.find("[2000]");
   dcf.insert(dcf.find("\r\nPDOMapping", output) + 2, "ParameterValue=7\r\n");
   write_bytes(bench.dcf, dcf);
+  dcf +=
+      "[6040]\r\nParameterName=Controlword\r\nObjectType=0x7\r\nDataType=0x0006\r\nAccessType=rw\r\nParameterValue="
+      "15\r\n";
+  dcf = std::regex_replace(dcf, std::regex("DefaultValue=0x00020192\r\n"), "");  // the profile is that of the device
+  write_bytes(bench.dcf, dcf);
   check(bench.apply({}), 0, "0 of 10 values differ\n",
-        "lexican: not written from a file, as commands, process values or read-only: 2000h\n");
+        "lexican: not written from a file, as commands, process values or read-only: 2000h, 6040h\n");
   write_bytes(bench.dcf, std::regex_replace(dcf, std::regex("ProductNumber=[^\r]*"), "ProductNumber=0x403"));
   check(bench.run("dump", {"5", "--eds", bench.dcf}), 1, "",
         "lexican: the file is for 00000100:00000403, the device is 00000100:00000402; --force uses it all the same\n");

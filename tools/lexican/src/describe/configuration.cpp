@@ -32,8 +32,8 @@ bool is_command(const codict::Device& device, std::uint16_t index) {
     return index >= range.first && index <= range.last;
   });
   const codict::Entry* const type = device.find(0x1000, 0);
-  const bool is_drive = type != nullptr && codict::value_in_force(*type).is_integer() &&
-                        (codict::value_in_force(*type).integer.bits() & 0xFFFFU) == drive_profile;
+  const bool is_type_known = type != nullptr && codict::value_in_force(*type).is_integer();
+  const bool is_drive = !is_type_known || (codict::value_in_force(*type).integer.bits() & 0xFFFFU) == drive_profile;
   const bool is_controlword = index >= 0x6000 && index < 0xA000 && (index & 0x7FFU) == 0x040;
   return is_listed || (is_drive && is_controlword);
 }

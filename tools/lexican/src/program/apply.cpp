@@ -109,6 +109,7 @@ class Apply {
   /// \retval false  as compare()
   bool write() {
     refused_.clear();
+    broken_pdos_.clear();
     const auto differs = [this](const Download& download) {
       return std::any_of(differences_.begin(), differences_.end(), [&](const Difference& difference) {
         return difference.key == EntryKey{download.index, download.sub_index};
@@ -122,9 +123,8 @@ class Apply {
     }
     for (const Download& download : downloads_) {
       const EntryKey key{download.index, download.sub_index};
-      const bool is_readable = codict::is_readable(device_.find(key.first, key.second)->access.value);
-      const bool is_wanted =
-          download.communication != 0 ? pdos.count(download.communication) != 0 : !is_readable || differs(download);
+      const bool is_wanted = download.communication != 0 ? pdos.count(download.communication) != 0
+                                                         : write_only_.count(key) != 0 || differs(download);
       if (!is_wanted) {
         continue;
       }
@@ -138,7 +138,9 @@ class Apply {
         written_ += download.is_intermediate ? 0U : 1U;
       } else {
         refused_[key] = transfer_.code;
-        pdos.erase(download.communication);  // with a part of its parameters it must not be switched on
+        if (pdos.erase(download.communication) != 0) {  // with a part of its parameters it must not be switched on
+          broken_pdos_.insert(download.communication);
+        }
       }
     }
     return true;
@@ -163,6 +165,9 @@ class Apply {
     for (const auto& [key, code] : refused_) {
       print_message(
           fmt::format("{} refused: {} {}", name_of(key), trace::abort_code(code), trace::abort_meaning(code)));
+    }
+    for (const std::uint16_t index : broken_pdos_) {
+      print_message(fmt::format("{:04X}h: the rest of this PDO was not written, and it is not switched on", index));
     }
   }
 
@@ -257,7 +262,8 @@ class Apply {
   codict::Device device_;
   std::uint8_t node_;
   std::set<EntryKey> write_only_;
-  std::set<EntryKey> completed_;  ///< read from the device, not of the file
+  std::set<std::uint16_t> broken_pdos_;  ///< communication parameters of PDOs of which the device has refused a part
+  std::set<EntryKey> completed_;         ///< read from the device, not of the file
   std::vector<EntryKey> malformed_;
   std::vector<Download> downloads_;
   std::vector<EntryKey> left_out_;
