@@ -110,7 +110,7 @@ class Bench:
 
     def __init__(self, lexican, node, directory):
         self.lexican = os.path.abspath(lexican)
-        self.node = node
+        self.node = os.path.abspath(node)
         self.directory = directory
         self.device = directory / "ttyACM0"
         self.process = None
@@ -133,7 +133,7 @@ class Bench:
             arguments = ["-i", "slcan-pty", *arguments]
         with log.open("w") as file:
             self.process = subprocess.Popen([self.node, "--serve", *arguments], stdout=file, stderr=subprocess.STDOUT,
-                                            env=self.environment)
+                                            env=self.environment, cwd=self.directory)
         end = time.monotonic() + MOST_SECONDS
         while not (found := re.search(r"at (/dev/pts/\d+)\n|hub:\w+\n", log.read_text())):
             if self.process.poll() is not None or time.monotonic() > end:
@@ -219,6 +219,25 @@ def run_help(bench, verb):
         bench.report(f"{verb} --help: {example.strip()}", "" if status != WRONG_USE else f"wrong use: {shown}")
 
 
+def copy_a_device(bench):
+    """Dumps a device, changes it, applies and stores the dump, and dumps it again after a loss of power."""
+    def run(command):
+        shown, status = bench.run(["lexican", *shlex.split(command), "-i", BUS, "--yes"])
+        bench.report(f"a copy: {command}", "" if status == 0 else f"status {status}: {shown}")
+
+    node = ["--node-id", "5", "--storage", "copy.nvm"]
+    bench.start_node(node)
+    run("write 5 2101 -30 --type i16")
+    run("dump 5 -o first/copy.dcf --eds clock.eds")
+    run("write 5 2101 60 --type i16")
+    run("write 5 1017 500")
+    run("apply first/copy.dcf --store")
+    bench.start_node(node)
+    run("dump 5 -o second/copy.dcf --eds clock.eds")
+    first, second = ((bench.directory / name / "copy.dcf").read_bytes() for name in ("first", "second"))
+    bench.report("a copy: the dump after a loss of power is equal", "" if first == second else "it differs")
+
+
 def copy_files(directory):
     """Copies the files that the pages and the helps name."""
     description = ROOT / "demo/clock/generated/clock.eds"
@@ -229,7 +248,8 @@ def copy_files(directory):
     text = re.sub("(Low|High)Limit=.*", "", description.read_text())
     for old, new in ("Time zone", "Profile velocity"), ("Picture", "Velocity actual value"):
         text = text.replace(f"ParameterName={old}", f"ParameterName={new}")
-    (directory / "descriptions").mkdir()
+    for name in "descriptions", "first", "second":
+        (directory / name).mkdir()
     for name in "drive.eds", "descriptions/drive.eds":
         (directory / name).write_text(text)
 
@@ -242,6 +262,7 @@ def main():
             for page in PAGES:
                 blocks = run_page(bench, page)
                 bench.report(f"{page.name} has examples", "" if blocks else "none")
+            copy_a_device(bench)
             bench.start_node(["--node-id", "5"])
             bench.prepare(f"lexican dump 5 -o drive5.dcf --eds drive.eds -i {BUS}")
             for verb in (page.stem for page in PAGES if (ROOT / f"tools/lexican/src/program/{page.stem}.cpp").exists()):
