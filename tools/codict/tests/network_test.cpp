@@ -371,7 +371,7 @@ TEST_CASE("network: a value that does not fit its type is not downloaded, nor is
   const std::string dcf = std::regex_replace(entries, std::regex("DefaultValue="), "ParameterValue=");
   std::string uncoded;
   const std::vector<Download> downloads =
-      codict::downloads_of(device_of(dcf), 5, [&](std::uint16_t index, std::uint8_t sub_index, const Entry&) {
+      lexican::codict::downloads_of(device_of(dcf), 5, [&](std::uint16_t index, std::uint8_t sub_index, const Entry&) {
         uncoded += std::to_string(index) + ':' + std::to_string(sub_index) + ' ';
       });
   CHECK(downloads_text(downloads) == "2000:0=0000 2012:0=FF");
