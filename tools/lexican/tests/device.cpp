@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Device for the tests of lexican, described by fixtures/device.eds:
-//   lexican_test_device BUS NODE-ID [silent] [slow] [no-revision] [serial=HEX] [eds=FILE]
+//   lexican_test_device BUS NODE-ID [silent] [slow] [no-revision] [no-product] [serial=HEX] [eds=FILE]
 // NODE-ID 255: it has none, and is an LSS slave; silent: has a heartbeat and no SDO server; slow: processes frames
-// every 50 ms; no-revision: refuses 1018h:03; eds=FILE: stores this file in 1021h. Prints "ready" after its boot-up,
-// then "request" for the first SDO request, and "abort CODE" for each abort of the client. Runs until SIGTERM.
+// every 50 ms; no-revision, no-product: refuses 1018h:03, 1018h:02; serial=HEX: 1018h:04; eds=FILE: stores this file in
+// 1021h. Prints "ready" after its boot-up, then "request" for the first SDO request, and "abort CODE" for each abort of
+// the client. Runs until SIGTERM.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -188,7 +189,7 @@ int main(int number, char** arguments) {
   const std::vector<std::string> words(arguments, arguments + number);
   const auto has = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
   for (CO_OBJ& object : objects) {
-    if (has("no-revision") && object.Key >> 8 == 0x101803) {
+    if ((has("no-revision") && object.Key >> 8 == 0x101803) || (has("no-product") && object.Key >> 8 == 0x101802)) {
       object.Type = &refusing;
     }
   }

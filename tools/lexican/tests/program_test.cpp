@@ -1454,6 +1454,10 @@ TEST_CASE("lexican apply: another device, and files without values") {
       bench.apply({}), 1, "",
       "lexican: the file is for 00000100:00000403, the device is 00000100:00000402; --force applies it all the same\n");
   check(bench.apply({"--force"}), 0, "0 of 10 values differ\n", "");
+  bench.add(6, "no-product");
+  check(bench.apply({"-n", "6"}), 1, "",
+        "lexican: the device does not have the vendor-ID and product code (1018h) of the file; --force applies it all "
+        "the same\n");
   write_bytes(bench.dcf, bytes_of(eds));
   check(bench.apply({}), 2, "", "lexican: " + bench.dcf + " has no node-ID; give it by -n NODE\n");
   CHECK(bench.apply({"-n", "5"}).status == 2);

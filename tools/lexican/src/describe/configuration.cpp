@@ -31,7 +31,7 @@ bool is_command(const codict::Device& device, std::uint16_t index) {
   const bool is_listed = std::any_of(std::begin(commands), std::end(commands), [=](const Commands& range) {
     return index >= range.first && index <= range.last;
   });
-  const codict::Entry* const type = device.find(0x1000, 0);
+  const codict::Entry* const type = device.find(device_type.first, device_type.second);
   const bool is_type_known = type != nullptr && codict::value_in_force(*type).is_integer();
   const bool is_drive = !is_type_known || (codict::value_in_force(*type).integer.bits() & 0xFFFFU) == drive_profile;
   const bool is_controlword = index >= 0x6000 && index < 0xA000 && (index & 0x7FFU) == 0x040;
@@ -110,6 +110,16 @@ void set(codict::Field<T>& field, T value) {
 
 }  // namespace
 
+std::string keys_text(const std::vector<EntryKey>& keys) {
+  constexpr std::size_t most = 8;
+  std::string text;
+  for (std::size_t n = 0; n < keys.size() && n < most; ++n) {
+    const auto [index, sub_index] = keys[n];
+    text += (n == 0 ? "" : ", ") + key_of(index, sub_index, sub_index != 0);
+  }
+  return text + (keys.size() > most ? fmt::format(" and {} more", keys.size() - most) : "");
+}
+
 void forget_values(codict::Device& device) {
   for (codict::Object& object : device.objects) {
     object.actual_value.reset();
@@ -186,8 +196,8 @@ bool store_value(codict::Device& device, const EntryKey& key, std::uint8_t node,
   return true;
 }
 
-void store_default(codict::Device& device, const EntryKey& key, std::uint32_t value) {
-  if (codict::Entry* const entry = entry_of(device, key)) {
+void store_device_type(codict::Device& device, std::uint32_t value) {
+  if (codict::Entry* const entry = entry_of(device, device_type)) {
     entry->default_value.kind = codict::Value::Kind::integer;
     entry->default_value.integer = value;
     entry->default_value.text = fmt::format("0x{:08X}", value);

@@ -13,6 +13,11 @@ namespace lexican::describe {
 /// Index and sub-index.
 using EntryKey = std::pair<std::uint16_t, std::uint8_t>;
 
+constexpr EntryKey device_type{0x1000, 0};
+
+/// Returns "1018h:01, 6060h" for the first entries, and how many there are more.
+std::string keys_text(const std::vector<EntryKey>& keys);
+
 /// How an entry belongs to the configuration.
 enum class Part : std::uint8_t {
   configuration,
@@ -35,8 +40,8 @@ Part part_of(const codict::Device& device, const EntryKey& key, const std::set<E
 /// Returns whether two values of an entry are the same: a text may be filled with zeros.
 bool is_equal(const codict::Device& device, const EntryKey& key, Bytes one, Bytes other);
 
-/// Stores the value of a device that the description may not have, as its default: the device type (1000h).
-void store_default(codict::Device& device, const EntryKey& key, std::uint32_t value);
+/// Stores the device type (1000h), which a description may lack, as its default value.
+void store_device_type(codict::Device& device, std::uint32_t value);
 
 /// Stores the value of a device as ParameterValue. The COB-ID of a default that contains the node-ID becomes
 /// $NODEID + base, so that it fits another node, too.

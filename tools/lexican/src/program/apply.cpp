@@ -209,14 +209,9 @@ class Apply {
 
   /// Reads what the order of the downloads depends on, and the file does not have.
   bool complete() {
-    constexpr EntryKey device_type{0x1000, 0};
-    if (device_.find(device_type.first, device_type.second) != nullptr) {
-      if (!read(device_type)) {
-        return false;
-      }
-      if (transfer_.done() && transfer_.data.size() == 4) {
-        describe::store_default(device_, device_type, static_cast<std::uint32_t>(number_of(transfer_.data)));
-      }
+    last_ = describe::device_type;
+    if (!read_device_type(session_.sdo(), options_.common.timeout, device_, transfer_) || session_.is_interrupted()) {
+      return false;
     }
     std::vector<EntryKey> missing;
     for (const codict::Pdo& pdo : codict::pdos_of(device_)) {
@@ -337,15 +332,6 @@ void print_json_result(const Apply& apply, std::uint8_t node, bool is_stored,
   print(json.dump() + '\n');
 }
 
-std::string names_in(const std::vector<EntryKey>& keys) {
-  constexpr std::size_t most = 8;
-  std::string names;
-  for (std::size_t n = 0; n < keys.size() && n < most; ++n) {
-    names += (n == 0 ? "" : ", ") + describe::key_of(keys[n].first, keys[n].second, keys[n].second != 0);
-  }
-  return names + (keys.size() > most ? fmt::format(" and {} more", keys.size() - most) : "");
-}
-
 /// Prints the values of the file that cannot be written.
 /// \retval false  some do not fit their types, and --force is not given
 bool check_values(const Apply& apply, const ApplyOptions& options) {
@@ -360,7 +346,7 @@ bool check_values(const Apply& apply, const ApplyOptions& options) {
   }
   if (!apply.left_out().empty()) {
     print_note(fmt::format("not written from a file, as commands, process values or read-only: {}",
-                           names_in(apply.left_out())));
+                           describe::keys_text(apply.left_out())));
   }
   return true;
 }

@@ -20,8 +20,6 @@ namespace {
 using describe::EntryKey;
 using describe::Part;
 
-constexpr std::size_t most_named = 8;  // refused entries in the summary, for each reason
-
 struct DumpOptions {
   Common common;
   std::optional<std::string> node;
@@ -43,17 +41,9 @@ class Dump {
       keys.emplace_back(index, sub_index);
     });
     describe::forget_values(device_);
-    constexpr EntryKey device_type{0x1000, 0};
-    if (device_.find(device_type.first, device_type.second) != nullptr) {
-      last_ = device_type;
-      transfer_ =
-          session_.sdo().upload(device_type.first, device_type.second, {SdoClient::small, options_.common.timeout, {}});
-      if (transfer_.code == CO_SDO_ERR_TIMEOUT || session_.is_interrupted()) {
-        return false;
-      }
-      if (transfer_.done() && transfer_.data.size() == 4) {
-        describe::store_default(device_, device_type, static_cast<std::uint32_t>(lexican::number_of(transfer_.data)));
-      }
+    last_ = describe::device_type;
+    if (!read_device_type(session_.sdo(), options_.common.timeout, device_, transfer_) || session_.is_interrupted()) {
+      return false;
     }
     std::set<EntryKey> mapped;
     bool is_mapping_known = false;
@@ -118,15 +108,6 @@ class Dump {
   std::map<Part, std::size_t> parts_;
 };
 
-std::string names_of(const std::vector<EntryKey>& keys) {
-  std::string text;
-  for (std::size_t n = 0; n < keys.size() && n < most_named; ++n) {
-    const auto [index, sub_index] = keys[n];
-    text += (n == 0 ? "" : ", ") + describe::key_of(index, sub_index, sub_index != 0);
-  }
-  return text + (keys.size() > most_named ? fmt::format(" and {} more", keys.size() - most_named) : "");
-}
-
 /// Returns what was read and what was left out, in one or several lines.
 std::string summary_of(const Dump& dump, Micros duration) {
   struct Row {
@@ -147,9 +128,9 @@ std::string summary_of(const Dump& dump, Micros duration) {
     }
   }
   for (const auto& [code, keys] : dump.refused()) {
-    text += code == 0 ? fmt::format("\n{} that a DCF cannot express: {}", keys.size(), names_of(keys))
+    text += code == 0 ? fmt::format("\n{} that a DCF cannot express: {}", keys.size(), describe::keys_text(keys))
                       : fmt::format("\n{} refused with {} {}: {}", keys.size(), trace::abort_code(code),
-                                    trace::abort_meaning(code), names_of(keys));
+                                    trace::abort_meaning(code), describe::keys_text(keys));
   }
   return text + '\n';
 }

@@ -35,6 +35,14 @@ std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t ti
   return identity;
 }
 
+bool read_device_type(SdoClient& sdo, std::uint32_t timeout, codict::Device& device, Transfer& transfer) {
+  transfer = sdo.upload(describe::device_type.first, describe::device_type.second, {SdoClient::small, timeout, {}});
+  if (transfer.done() && transfer.data.size() == 4) {
+    describe::store_device_type(device, static_cast<std::uint32_t>(number_of(transfer.data)));
+  }
+  return transfer.code != CO_SDO_ERR_TIMEOUT;
+}
+
 std::string other_identity(const codict::Identity& described, const describe::Identity& device) {
   const std::uint32_t vendor = described.vendor_number.value;
   const std::uint32_t product = described.product_number.value;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "client/sdo_client.hpp"
+#include "describe/configuration.hpp"
 #include "describe/library.hpp"
 #include "program/verb.hpp"
 
@@ -17,6 +18,10 @@ std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t ti
 /// \retval nothing  it does not answer; \a transfer: the one that has failed
 std::optional<describe::Identity> identify_device(SdoClient& sdo, std::uint8_t node, const Common& common,
                                                   describe::Network& network, Transfer& transfer);
+
+/// Reads the device type into a description: profiles decide what is a command.
+/// \retval false  the device does not answer; \a transfer: the upload
+bool read_device_type(SdoClient& sdo, std::uint32_t timeout, codict::Device& device, Transfer& transfer);
 
 /// Returns in words how the identity of a device differs from that of a description; empty: it does not. A vendor-ID or
 /// product code of 0 in the description stands for any.
