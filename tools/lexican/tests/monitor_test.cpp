@@ -260,6 +260,40 @@ TEST_CASE("monitor: PDOs by a description") {
   CHECK(bus.frame(0x182, {0x37, 0x02, 0, 0, 0, 0}) == "pdo 2 TPDO1 Statusword = 567, Position = 0 deg");
 }
 
+/// Returns the values of a frame as "TPDO1 of 5: 6064h Position 12.3".
+std::string values_in(const Bus& bus, std::uint32_t id, const Bytes& bytes, std::uint8_t node = 0) {
+  CO_IF_FRM frame{id, {}, static_cast<std::uint8_t>(bytes.size())};
+  std::copy(bytes.begin(), bytes.end(), frame.Data);
+  const std::optional<PdoContent> content = bus.monitor.values_of(frame, node);
+  if (!content) {
+    return "-";
+  }
+  std::string text = std::string(content->is_transmit ? "TPDO" : "RPDO") + std::to_string(content->number) + " of " +
+                     std::to_string(content->node) + ':';
+  for (const PdoValue& value : content->values) {
+    text += ' ' + key_of(value.index, value.sub_index, false) + ' ' + value.name + " \"" + value.text + "\" " +
+            (value.number ? std::to_string(*value.number) : "-") + ';';
+  }
+  return text;
+}
+
+TEST_CASE("monitor: the values of a PDO as numbers") {
+  Bus bus(drive());
+  CHECK(values_in(bus, 0x185, {0x37, 0x02, 0xB4, 0x04, 0, 0}) ==
+        "TPDO1 of 5: 6041h Statusword \"567\" 567.000000; 6064h Position \"120.4 deg\" 120.400000;");
+  CHECK(values_in(bus, 0x185, {0x37, 0x02, 0xB4}) == "TPDO1 of 5: 6041h Statusword \"567\" 567.000000;");
+  CHECK(values_in(bus, 0x205, {0x99, 0x0F, 0x00}) == "RPDO1 of 5: 6040h Controlword \"15\" 15.000000;");  // no dummy
+  CHECK(values_in(bus, 0x185 | remote, {}) == "-");
+  CHECK(values_in(bus, 0x285, {0x01}) == "-");  // not valid
+  CHECK(values_in(bus, 0x705, {0x05}) == "-");
+  // TPDO1 of node 2 is RPDO2 of all nodes.
+  CHECK(values_in(bus, 0x182, {0x37, 0x02, 0, 0, 0, 0}, 2).substr(0, 11) == "TPDO1 of 2:");
+  CHECK(values_in(bus, 0x182, {0x37, 0x02, 0, 0, 0, 0}, 7) == "RPDO2 of 7: 6040h Controlword \"567\" 567.000000;");
+  bus.write(9, 0x1A00, 1, 0x21000010, false);
+  bus.write(9, 0x1A00, 0, 1, true);
+  CHECK(values_in(bus, 0x189, {0x34, 0x12}) == "TPDO1 of 9: 2100h 2100h:00 \"1234h\" 4660.000000;");
+}
+
 TEST_CASE("monitor: entries of single bits") {
   Bus bus(drive());
   CHECK(bus.write(5, 0x1801, 1, 0x285, false) == "sdo 5 write 1801h:01 TPDO 2, Sub 1 = 00000285h");

@@ -128,25 +128,40 @@ std::optional<double> real_of(std::string_view text) {
   return is_number ? std::optional(number) : std::nullopt;
 }
 
-/// Applies the factor and adds the unit: those of an XDD, else the keys Factor and Unit that python-canopen reads from
-/// an EDS. A number whose factor is not valid keeps its raw value, without the unit of the scaled one.
-std::string physical(const codict::Entry& entry, const std::string& raw) {
+/// How a value becomes a physical one: by the unit of an XDD, else by the keys Factor and Unit that python-canopen
+/// reads from an EDS.
+struct Scale {
+  double offset = 0;
+  double factor = 1;
+  std::string_view unit;
+
+  bool is_raw() const { return offset == 0 && factor == 1; }
+  double apply(double number) const { return (number + offset) * factor; }
+};
+
+/// \retval nothing  the factor is not valid: the value remains raw, without the unit of the scaled one
+std::optional<Scale> scale_of(const codict::Entry& entry) {
   const bool is_xdd = entry.unit->is_given;
   const std::string_view unit = is_xdd ? codict::text_in(entry.unit->texts.labels, "en") : other_key(entry, "Unit");
   const auto or_default = [](std::string_view text, double otherwise) {
     return text.empty() ? std::optional(otherwise) : real_of(text);
   };
-  const std::optional<double> number = real_of(raw);
   const std::optional<double> offset = or_default(entry.offset->text, 0);
   const std::optional<double> scale = or_default(entry.multiplier->text, 1);
   const std::optional<double> factor = or_default(is_xdd ? entry.unit->multiplier.text : other_key(entry, "Factor"), 1);
-  if (!number || !offset || !scale || !factor || *scale * *factor == 0) {
+  const bool is_valid = offset && scale && factor && *scale * *factor != 0;
+  return is_valid ? std::optional(Scale{*offset, *scale * *factor, unit}) : std::nullopt;
+}
+
+std::string physical(const codict::Entry& entry, const std::string& raw) {
+  const std::optional<double> number = real_of(raw);
+  const std::optional<Scale> scale = scale_of(entry);
+  if (!number || !scale) {
     return raw;
   }
   constexpr int digits = 12;  // hides the rounding of 3 * 0.1
-  const bool is_raw = *offset == 0 && *scale * *factor == 1;
-  return (is_raw ? raw : fmt::format("{:.{}g}", (*number + *offset) * *scale * *factor, digits)) +
-         (unit.empty() ? "" : fmt::format(" {}", unit));
+  return (scale->is_raw() ? raw : fmt::format("{:.{}g}", scale->apply(*number), digits)) +
+         (scale->unit.empty() ? "" : fmt::format(" {}", scale->unit));
 }
 
 /// Returns the row of an object of the communication profile; null: it has none.
@@ -268,6 +283,19 @@ std::string Description::show(std::uint16_t index, std::uint8_t sub_index, const
   }
   const std::string_view name = name_of_value(*device_, *entry, shown.text);
   return physical(*entry, shown.text) + (name.empty() ? "" : fmt::format(" ({})", name));
+}
+
+std::optional<double> Description::number(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) const {
+  const std::optional<ValueType> type = type_of(index, sub_index);
+  if (!type && !bytes.empty() && bytes.size() <= sizeof(std::uint64_t)) {
+    return static_cast<double>(number_of(bytes));
+  }
+  const bool is_number = type && type->kind != ValueType::Kind::text && type->kind != ValueType::Kind::bytes;
+  const std::optional<double> raw =
+      is_number && !bytes.empty() ? real_of(lexican::show(*type, bytes).text) : std::nullopt;
+  const codict::Entry* const entry = device_ != nullptr ? device_->find(index, sub_index) : nullptr;
+  const std::optional<Scale> scale = entry != nullptr ? scale_of(*entry) : std::nullopt;
+  return raw && scale ? std::optional(scale->apply(*raw)) : raw;
 }
 
 std::optional<Description> read_description(const std::string& path, std::string& why) {

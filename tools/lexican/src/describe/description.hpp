@@ -44,6 +44,9 @@ class Description {
   /// Returns a value in words: a number with unit and name ("1.5 A", "3 (profile velocity)"), a COB-ID and the like in
   /// hexadecimal digits, a text in quotes, or bytes.
   std::string show(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) const;
+  /// Returns the number of a value as show() scales it, without a type that of an unsigned integer; nothing if it is
+  /// none.
+  std::optional<double> number(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) const;
 
  private:
   std::shared_ptr<const codict::Device> device_;

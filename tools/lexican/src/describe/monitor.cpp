@@ -214,12 +214,19 @@ void Monitor::set_cob_id(PdoKey at, Pdo& pdo, std::uint32_t cob_id) {
   }
 }
 
-/// Returns the PDO of a frame: the TPDO, because it names the sender, else the first RPDO. Null: no known PDO.
-const Monitor::Pdo* Monitor::pdo_of(const CO_IF_FRM& frame) const {
+/// Returns the PDO of a frame: the TPDO, because it names the sender, else the first RPDO. \a node: whose; 0: any.
+/// \retval nullptr  no known PDO
+const Monitor::Pdo* Monitor::pdo_of(const CO_IF_FRM& frame, std::uint8_t node) const {
   const std::uint32_t cob_id =
       (frame.Identifier & CO_IF_FRM_ID) | ((frame.Identifier & CO_IF_FRM_EXT) != 0 ? extended : 0U);
-  const auto found = by_cob_id_.lower_bound({cob_id, 0});
-  return found != by_cob_id_.end() && found->first == cob_id ? &pdos_.at(found->second) : nullptr;
+  auto found = by_cob_id_.lower_bound({cob_id, 0});
+  for (; found != by_cob_id_.end() && found->first == cob_id; ++found) {
+    const Pdo& pdo = pdos_.at(found->second);
+    if (node == 0 || pdo.node == node) {
+      return &pdo;
+    }
+  }
+  return nullptr;
 }
 
 void Monitor::process(const host_bus::Entry& received) {
@@ -529,38 +536,70 @@ void Monitor::learn(std::uint8_t node, const SdoTransfer& transfer) {
   }
 }
 
+Monitor::Content Monitor::content_of(const Pdo& pdo, const CO_IF_FRM& frame) {
+  Content content;
+  content.is_mapping_known = pdo.count > 0;
+  for (std::size_t n = 0; n < pdo.count && content.is_mapping_known; ++n) {
+    const std::uint32_t entry = n < pdo.entries.size() ? pdo.entries[n] : 0U;
+    const unsigned length = entry & 0xFFU;
+    Mapped mapped{static_cast<std::uint16_t>(entry >> 16), static_cast<std::uint8_t>(entry >> 8), {}};
+    content.is_mapping_known = length != 0;
+    if (content.bits + length > 8U * frame.DLC) {
+      content.missing = std::move(mapped);
+      break;
+    }
+    mapped.bytes = bytes_of(number_in(frame.Data, content.bits, length), length);
+    content.objects.push_back(std::move(mapped));
+    content.bits += length;
+  }
+  return content;
+}
+
+std::optional<PdoContent> Monitor::values_of(const CO_IF_FRM& frame, std::uint8_t node) const {
+  const bool is_data = (frame.Identifier & (CO_IF_FRM_RTR | CO_IF_FRM_ERROR)) == 0 && frame.DLC <= 8;
+  const Pdo* const pdo = is_data ? pdo_of(frame, node) : nullptr;
+  if (pdo == nullptr || pdo->count == 0) {
+    return std::nullopt;
+  }
+  const Description& description = network_.of(pdo->node);
+  PdoContent content{pdo->node, pdo->is_transmit, pdo->number, {}};
+  const Content data = content_of(*pdo, frame);
+  for (const Mapped& mapped : data.objects) {
+    const auto& [index, sub_index, bytes] = mapped;
+    if (mapped.is_dummy()) {
+      continue;
+    }
+    const std::string name = description.name_of(index, sub_index);
+    content.values.push_back({index, sub_index, name.empty() ? description.object(index, sub_index) : name,
+                              description.show(index, sub_index, bytes), description.number(index, sub_index, bytes)});
+  }
+  return content;
+}
+
 std::string Monitor::show_pdo(const Pdo& pdo, const CO_IF_FRM& frame) const {
   std::string text = fmt::format("{}{}", pdo.is_transmit ? "TPDO" : "RPDO", pdo.number);
   if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
     return text + " requested";
   }
-  const unsigned bits = 8U * frame.DLC;
   const Description& description = network_.of(pdo.node);
+  const Content content = content_of(pdo, frame);
   const char* separator = " ";
-  unsigned position = 0;
-  bool is_mapping_known = pdo.count > 0;
-  for (std::size_t n = 0; n < pdo.count && is_mapping_known; ++n) {
-    const std::uint32_t entry = n < pdo.entries.size() ? pdo.entries[n] : 0U;
-    const auto index = static_cast<std::uint16_t>(entry >> 16);
-    const auto sub_index = static_cast<std::uint8_t>(entry >> 8);
-    const unsigned length = entry & 0xFFU;
-    is_mapping_known = length != 0;
-    if (position + length > bits) {
-      return text + fmt::format("{}too short for {}, {}", separator, description.object(index, sub_index),
-                                frame.DLC == 0 ? "no data" : "whole data: " + hex_bytes(frame.Data, frame.DLC));
-    }
-    const bool is_dummy = index < 0x20;
-    if (!is_dummy) {
-      const std::string name = description.name_of(index, sub_index);
-      text += separator + (name.empty() ? description.object(index, sub_index) : name) + " = " +
-              description.show(index, sub_index, bytes_of(number_in(frame.Data, position, length), length));
+  for (const Mapped& mapped : content.objects) {
+    if (!mapped.is_dummy()) {
+      const std::string name = description.name_of(mapped.index, mapped.sub_index);
+      text += separator + (name.empty() ? description.object(mapped.index, mapped.sub_index) : name) + " = " +
+              description.show(mapped.index, mapped.sub_index, mapped.bytes);
       separator = ", ";
     }
-    position += length;
   }
-  const std::size_t shown = (position + 7) / 8;
+  if (content.missing) {
+    return text + fmt::format("{}too short for {}, {}", separator,
+                              description.object(content.missing->index, content.missing->sub_index),
+                              frame.DLC == 0 ? "no data" : "whole data: " + hex_bytes(frame.Data, frame.DLC));
+  }
+  const std::size_t shown = (content.bits + 7) / 8;
   if (shown < frame.DLC) {
-    text += separator + std::string(is_mapping_known ? "not mapped: " : "") +
+    text += separator + std::string(content.is_mapping_known ? "not mapped: " : "") +
             hex_bytes(frame.Data + shown, frame.DLC - shown);
   }
   return text;

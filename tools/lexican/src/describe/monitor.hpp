@@ -37,6 +37,23 @@ struct Event {
   const SdoTransfer* sdo = nullptr;
 };
 
+/// An object in a PDO.
+struct PdoValue {
+  std::uint16_t index = 0;
+  std::uint8_t sub_index = 0;
+  std::string name;  ///< index and sub-index if it has none
+  std::string text;  ///< with unit and name of the value
+  std::optional<double> number;
+};
+
+/// The values of a PDO that a frame transfers; without those of objects that a frame is too short for, and of dummies.
+struct PdoContent {
+  std::uint8_t node = 0;
+  bool is_transmit = false;
+  std::uint16_t number = 0;
+  std::vector<PdoValue> values;
+};
+
 /// Numbers of the frames so far.
 struct Statistics {
   static constexpr std::size_t most_identifiers = 4096;  ///< frames with further ones are counted in `others`
@@ -73,13 +90,11 @@ class Monitor {
   void finish();
 
   const Statistics& statistics() const { return statistics_; }
+  /// Returns the values of a frame. \a node: whose PDO it has to be; 0: the TPDO with this COB-ID, else the first RPDO.
+  /// \retval nothing  no mapping of such a PDO is known, or the frame is a remote one
+  std::optional<PdoContent> values_of(const CO_IF_FRM& frame, std::uint8_t node = 0) const;
 
  private:
-  struct Mapped {
-    std::uint16_t index;
-    std::uint8_t sub_index;
-    std::uint8_t bits;
-  };
   struct Pdo {
     std::uint8_t node = 0;
     bool is_transmit = false;
@@ -93,6 +108,22 @@ class Monitor {
   struct Seen {
     std::array<std::optional<std::uint32_t>, 3> parts{};  ///< vendor-ID, product code, revision number
     unsigned reports = 0;
+  };
+
+  /// A mapped object in the data of a frame.
+  struct Mapped {
+    std::uint16_t index = 0;
+    std::uint8_t sub_index = 0;
+    Bytes bytes;
+
+    bool is_dummy() const { return index < 0x20; }
+  };
+  /// The data of a frame by the mapping of its PDO.
+  struct Content {
+    std::vector<Mapped> objects;
+    std::optional<Mapped> missing;  ///< the first object that does not fit the frame
+    bool is_mapping_known = false;
+    unsigned bits = 0;  ///< of the objects
   };
 
   using PdoKey = std::uint32_t;  ///< of TPDOs lower than of RPDOs
@@ -112,7 +143,8 @@ class Monitor {
 
   void count(const host_bus::Entry& entry);
   void message(Event& event, const CO_IF_FRM& frame);
-  const Pdo* pdo_of(const CO_IF_FRM& frame) const;
+  const Pdo* pdo_of(const CO_IF_FRM& frame, std::uint8_t node = 0) const;
+  static Content content_of(const Pdo& pdo, const CO_IF_FRM& frame);
   bool sdo(const host_bus::Entry& entry);
   void report(std::uint8_t node, const SdoTransfer& transfer, Micros time);
   void note_scan(std::uint8_t node, Micros time);
