@@ -46,6 +46,7 @@ MASKS = [(re.compile(pattern, re.MULTILINE), replacement) for pattern, replaceme
     (r"^ +\d+\.\d{3}(?=  )", "T"),  # the time of a message
     (r"(Minute|Second) = \d+", r"\1 = N"),  # of the clock
     (r"^ +([0-9A-F]{3}h) +\d+( +\d+\.\d/s)?$", r"\1 N"),  # a line of the identifiers at the end
+    (r"^\d+ PDOs? in", "N PDOs in"),
     (r"bus load \d+\.\d %", "bus load N %"),
 )]
 

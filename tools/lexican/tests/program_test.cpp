@@ -16,142 +16,13 @@
 #include <sstream>
 #include <string>
 
-#include "json_schema.hpp"
-#include "process.hpp"
+#include "program_bench.hpp"
+
+using namespace test;
 
 namespace {
 
-using test::Process;
-using test::Ran;
-using Words = std::vector<std::string>;
-using Json = nlohmann::json;
-
-const std::string eds = LEXICAN_TOOL_DIR "/tests/fixtures/device.eds";
-
-/// Directory of a test, also for the sockets of hubs.
-class Directory {
- public:
-  Directory() {
-    char name[] = "/tmp/lexican-test-XXXXXX";
-    path_ = mkdtemp(name);
-  }
-  ~Directory() { std::filesystem::remove_all(path_); }
-  Directory(const Directory&) = delete;
-  Directory& operator=(const Directory&) = delete;
-  std::string operator/(const std::string& name) const { return path_ + '/' + name; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-void write_bytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-/// Replaces durations, whose digits depend on the computer: "in 1.3 s" and "0.6 ms".
-std::string without_times(const std::string& text) {
-  const std::string seconds = std::regex_replace(text, std::regex("in [0-9.]+ s"), "in T s");
-  return std::regex_replace(seconds, std::regex("[0-9.]+ ms"), "T ms");
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) {
-    lines.push_back(line);
-  }
-  return lines;
-}
-
-/// Returns the fault of the lines of --json, held against docs/schema.json.
-std::string fault_of(const std::string& text, const std::string& verb) {
-  static const test::Schema schema(Json::parse(bytes_of(LEXICAN_TOOL_DIR "/docs/schema.json")));
-  for (const std::string& line : lines_of(text)) {
-    const Json value = Json::parse(line, nullptr, false);
-    const std::string fault = value.is_discarded() ? "no JSON: " + line : schema.fault_of(value, verb);
-    if (!fault.empty()) {
-      return fault;
-    }
-  }
-  return lines_of(text).empty() ? "no line" : "";
-}
-
 const std::string heartbeat = "1017h:00 producer heartbeat time = 50 (u16)\n";
-
-/// A hub with devices, and the program on it.
-class Bench {
- public:
-  Bench() : hub_("hub:test-" + std::to_string(getpid())) {
-    environment_ = {{"XDG_RUNTIME_DIR", directory.path()},
-                    {"XDG_CONFIG_HOME", directory.path()},
-                    {"LEXICAN_BUS", hub_},
-                    {"NO_COLOR", "1"}};
-  }
-  /// A bench with devices of some node-IDs.
-  explicit Bench(std::initializer_list<unsigned> nodes) : Bench() {
-    for (const unsigned node : nodes) {
-      add(node);
-    }
-  }
-
-  Process& add(unsigned node, const std::string& kind = "usual") {
-    devices_.emplace_back(Words{LEXICAN_TEST_DEVICE, hub_, std::to_string(node), kind}, environment_);
-    devices_.back().wait_for("ready");
-    return devices_.back();
-  }
-
-  Words line(const std::string& verb, Words words) const {
-    const bool is_transfer = verb == "read" || verb == "write";
-    if (is_transfer && std::find(words.begin(), words.end(), "--timeout") == words.end()) {
-      words.insert(words.begin(), {"--timeout", "60000"});  // no answer is late on a busy computer
-    }
-    words.insert(words.begin(), {LEXICAN_PROGRAM, verb});
-    return words;
-  }
-  Ran run(const std::string& verb, const Words& words) const {
-    return Process(line(verb, words), environment_).finish();
-  }
-  /// Runs it with a file as standard input.
-  Ran run_with_input(const std::string& verb, const Words& words, const std::string& path) const {
-    const int input = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    REQUIRE(input >= 0);
-    Process process(line(verb, words), environment_, input);
-    close(input);
-    return process.finish();
-  }
-  /// Runs it in a shell, with "$0" as the program.
-  Ran run_shell(const std::string& command) const {
-    return Process({"/bin/sh", "-c", command, LEXICAN_PROGRAM}, environment_).finish();
-  }
-  const std::string& hub() const { return hub_; }
-  const Process::Environment& environment() const { return environment_; }
-  void set(const std::string& name, const std::string& value) { environment_[name] = value; }
-
-  Directory directory;
-
- private:
-  std::string hub_;
-  Process::Environment environment_;
-  std::list<Process> devices_;
-};
-
-void check(const Ran& ran, int status, const std::string& out, const std::string& err) {
-  CHECK(ran.out == out);
-  CHECK(ran.err == err);
-  CHECK(ran.status == status);
-}
-
-Ran run(const Words& words) {
-  Words line = words;
-  line.insert(line.begin(), LEXICAN_PROGRAM);
-  return Process(line, {{"LEXICAN_BUS", ""}}).finish();
-}
 
 }  // namespace
 
@@ -163,6 +34,7 @@ TEST_CASE("lexican: without arguments all verbs are listed") {
         "  mon        Show in words what happens on a bus, or in a log\n"
         "  read       Read an object of a device\n"
         "  write      Write an object of a device\n"
+        "  pdo        Show, change, watch and send PDOs\n"
         "  dump       Read the configuration of a device into a DCF\n"
         "  apply      Write the configuration of a DCF into a device\n"
         "  nmt        Change the NMT state of a device, or of all\n"
@@ -794,7 +666,7 @@ TEST_CASE("lexican: a log, or a path, as the bus of a verb that sends") {
   const std::string log = directory / "a.log";
   write_bytes(log, "(0.000000) can0 705#7F\n");
   check(run({"read", "5", "1008", "-i", "replay:" + log}), 2, "",
-        "lexican: replay:" + log + " is a log, which only lexican mon can use\n");
+        "lexican: replay:" + log + " is a log, which only lexican mon and pdo watch can use\n");
   const Ran ran = run({"scan", "-i", "/dev/pts/0"});
   CHECK(has(ran.err, "lexican: '/dev/pts/0' is no bus, which is one of:\n"));
   CHECK(has(ran.err, "slcan:/dev/ttyACM0@500k"));

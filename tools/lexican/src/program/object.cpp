@@ -135,6 +135,8 @@ const char* remedy_for(std::uint32_t code, bool is_described) {
     case CO_SDO_ERR_TOS_STATE:
     case CO_SDO_ERR_PARA_INCOMP:
       return "another state may accept it: lexican nmt preop NODE, or switch the device off first";
+    case CO_SDO_ERR_OBJ_MAP:
+      return "the description (PDOMapping) or the manual says which objects can be mapped, and in which direction";
     case CO_SDO_ERR_TOS_LOCAL: return nullptr;
     default: return nullptr;
   }
@@ -200,6 +202,24 @@ void add_transfer_options(Arguments& arguments, TransferOptions& options) {
   arguments.add_option(
       "--type", options.type,
       "Type of the value: " + std::string(value_type_names) + "; default: that of the description, or of CiA 301");
+}
+
+std::string beyond_limits(const describe::Description& description, std::uint8_t node, const describe::EntryKey& key,
+                          const std::string& value) {
+  const codict::Device* const device = description.device();
+  const codict::Entry* const entry = device != nullptr ? device->find(key.first, key.second) : nullptr;
+  const codict::ParsedInteger number = codict::parse_integer(value);
+  if (entry == nullptr || !number.is_meant()) {
+    return {};
+  }
+  const codict::Value& low = *entry->low_limit;
+  const codict::Value& high = *entry->high_limit;
+  const bool is_low = low.is_integer() && number.value < low.integer_for(node);
+  const bool is_high = high.is_integer() && high.integer_for(node) < number.value;
+  return is_low || is_high ? fmt::format("{} is beyond the limits of the description, {} to {}; --force writes it",
+                                         value, low.is_integer() ? low.written_integer() : "-",
+                                         high.is_integer() ? high.written_integer() : "-")
+                           : std::string();
 }
 
 std::string type_text(const ValueType& type) {
@@ -323,7 +343,7 @@ int report_failure(Session& session, const Target& target, const Transfer& trans
     return bus_fault;
   }
   if (transfer.code == CO_SDO_ERR_TIMEOUT) {
-    print_message(session.is_stopped()
+    print_message(session.state() == 0x04
                       ? fmt::format("node {0} is stopped and answers no SDO: lexican nmt preop {0}", target.node)
                       : fmt::format("node {} does not answer; {}", target.node, remedy));
     return no_answer;

@@ -9,6 +9,7 @@
 
 #include "bus/clock.hpp"
 #include "client/sdo_client.hpp"
+#include "describe/configuration.hpp"
 #include "host/bus_host.hpp"
 #include "program/verb.hpp"
 
@@ -16,12 +17,16 @@ namespace lexican::program {
 
 class Session {
  public:
-  /// \a bus: as open_bus() has returned it.
-  Session(std::unique_ptr<host_bus::Bus> bus, std::uint8_t server)
-      : bus_(std::move(bus)), client_(host_, server, [this, server](bool is_received, const CO_IF_FRM& frame) {
-          const bool is_state = is_received && frame.Identifier == 0x700U + server && frame.DLC == 1;
-          is_stopped_ = is_state ? (frame.Data[0] & 0x7FU) == 0x04 : is_stopped_;
-          is_heard_ = is_heard_ || is_state;
+  /// \a bus: as open_bus() has returned it. \a observer: called for each frame during the transfers.
+  Session(std::unique_ptr<host_bus::Bus> bus, std::uint8_t server, Node::Observer observer = {})
+      : bus_(std::move(bus)),
+        client_(host_, server, [this, server, observer](bool is_received, const CO_IF_FRM& frame) {
+          if (is_received && frame.Identifier == 0x700U + server && frame.DLC == 1) {
+            state_ = frame.Data[0] & 0x7FU;
+          }
+          if (observer) {
+            observer(is_received, frame);
+          }
         }) {}
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -29,18 +34,15 @@ class Session {
   SdoClient& sdo() { return client_.sdo(); }
   host_bus::Bus& bus() { return *bus_; }
   BusHost& host() { return host_; }
-  /// Returns true if the last heartbeat of the server during the transfers has the state Stopped.
-  bool is_stopped() const { return is_stopped_; }
-  /// Returns true if a heartbeat of the server was received during the transfers.
-  bool is_heard() const { return is_heard_; }
+  /// Returns the NMT state of the last heartbeat of the server during the transfers; nothing: none was received.
+  std::optional<std::uint8_t> state() const { return state_; }
   bool is_interrupted() const { return Interruption::happened(); }
 
  private:
   Interruption interruption_;
   std::unique_ptr<host_bus::Bus> bus_;
   BusHost host_{*bus_, interruption_};
-  bool is_stopped_ = false;
-  bool is_heard_ = false;
+  std::optional<std::uint8_t> state_;
   DeviceClient client_;
 };
 
@@ -85,6 +87,10 @@ struct ObjectReference {
 /// name. \retval false  \a why says why, with similar names
 bool find_object(const std::string& word, const describe::Description& description, ObjectReference& found,
                  std::string& why);
+
+/// Returns whether an integer is beyond the limits that a description has: the message; empty: it is not.
+std::string beyond_limits(const describe::Description& description, std::uint8_t node, const describe::EntryKey& key,
+                          const std::string& value);
 
 /// Adds the positional arguments "node" and "object", and the options of a transfer.
 struct TransferOptions {

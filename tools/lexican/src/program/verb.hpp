@@ -43,6 +43,7 @@ Verb add_lss(CommandLine& line);
 Verb add_man(CommandLine& line);
 Verb add_mon(CommandLine& line);
 Verb add_nmt(CommandLine& line);
+Verb add_pdo(CommandLine& line);
 Verb add_read(CommandLine& line);
 Verb add_scan(CommandLine& line);
 Verb add_share(CommandLine& line);

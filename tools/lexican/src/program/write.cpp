@@ -18,25 +18,6 @@ struct WriteOptions : TransferOptions {
   bool verifies = false;
 };
 
-/// Returns the limits of an object if the description has them and the value is beyond: the message.
-std::string beyond_limits(const Target& target, const std::string& value) {
-  const codict::Device* const device = target.network.of(target.node).device();
-  const codict::Entry* const entry =
-      device != nullptr ? device->find(target.object.index, target.object.sub_index) : nullptr;
-  const codict::ParsedInteger number = codict::parse_integer(value);
-  if (entry == nullptr || !number.is_meant()) {
-    return {};
-  }
-  const codict::Value& low = *entry->low_limit;
-  const codict::Value& high = *entry->high_limit;
-  const bool is_low = low.is_integer() && number.value < low.integer_for(target.node);
-  const bool is_high = high.is_integer() && high.integer_for(target.node) < number.value;
-  return is_low || is_high ? fmt::format("{} is beyond the limits of the description, {} to {}; --force writes it",
-                                         value, low.is_integer() ? low.written_integer() : "-",
-                                         high.is_integer() ? high.written_integer() : "-")
-                           : std::string();
-}
-
 /// Converts what has to be written.
 /// \retval false  the reason is printed
 bool data_of(const WriteOptions& options, const Target& target, bool is_forced, Bytes& data) {
@@ -75,7 +56,10 @@ bool data_of(const WriteOptions& options, const Target& target, bool is_forced, 
     return false;
   }
   const Encoded encoded = encode(*target.type, value);
-  why = !encoded.fault.empty() ? encoded.fault : is_forced ? std::string() : beyond_limits(target, value);
+  why = !encoded.fault.empty() ? encoded.fault
+        : is_forced            ? std::string()
+                               : beyond_limits(target.network.of(target.node), target.node,
+                                               {target.object.index, target.object.sub_index}, value);
   if (!why.empty()) {
     print_message(target.name + ": " + why);
     return false;
