@@ -124,7 +124,7 @@ class PlotScreen {
     line(fmt::format("{} = {}  ({:g} to {:g})", object.name, object.text, object.low, object.high), columns);
     describe::Range range = describe::range_of(object.points);
     range.to = now;
-    range.from = is_terminal_ ? now - plot_seconds : object.points.front().time;
+    range.from = std::max(object.points.front().time, is_terminal_ ? now - plot_seconds : 0.0);
     std::vector<Point> points = object.points;
     points.push_back({now, points.back().value});
     for (const std::string& text : describe::braille(points, range, columns - 1, height)) {
@@ -396,8 +396,8 @@ class Watch {
   std::vector<describe::Curve> curves() const {
     std::vector<describe::Curve> curves;
     for (const WatchedObject& object : objects_) {
-      curves.push_back({object.name, object.points});
       if (!object.points.empty()) {
+        curves.push_back({object.name, object.points});
         curves.back().points.push_back({seconds(last_), object.points.back().value});
       }
     }
