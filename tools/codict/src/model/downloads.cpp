@@ -146,9 +146,12 @@ void DownloadList::add_pdo(const Pdo& pdo) {
   if (!is_changed) {
     return;
   }
+  if (pdo.communication == nullptr) {
+    add_mapping(*pdo.mapping);
+    return;
+  }
   const Entry* const cob_id = pdo.parameter(1);
-  const std::optional<std::uint64_t> value =
-      pdo.communication != nullptr ? number(pdo.communication->index, 1) : std::nullopt;
+  const std::optional<std::uint64_t> value = number(pdo.communication->index, 1);
   if (is_configured(cob_id) && !value) {
     uncoded_(pdo.communication->index, 1, *cob_id);
     return;
@@ -157,9 +160,7 @@ void DownloadList::add_pdo(const Pdo& pdo) {
   if (is_switched) {
     add_number(pdo.communication->index, 1, *value | cob_id_invalid, 4, (*value & cob_id_invalid) == 0);
   }
-  if (pdo.communication != nullptr) {
-    add_communication(*pdo.communication);
-  }
+  add_communication(*pdo.communication);
   if (changes_mapping) {
     add_mapping(*pdo.mapping);
   }

@@ -180,7 +180,7 @@ Document::Document(Source source, Findings& findings)
   const pugi::xml_parse_result result =
       tree_.load_buffer_inplace(buffer_.data(), buffer_.size(), parse_options, pugi::encoding_utf8);
   if (!result && result.status != pugi::status_no_document_element) {
-    const auto at = static_cast<std::uint32_t>(std::clamp<std::ptrdiff_t>(result.offset, 0, source_.size()));
+    const auto at = static_cast<std::uint32_t>(std::clamp<std::int64_t>(result.offset, 0, source_.size()));
     findings.add(rules::syntax, {at, at}, std::string("not well-formed: ") + result.description(),
                  "correct the XML at this place");
   }

@@ -342,7 +342,8 @@ bool read_number(const Text& number, std::size_t wanted, std::uint64_t largest, 
 
 // Returns false, with a finding, for a duplicate number.
 bool is_first(std::vector<bool>& seen, std::uint64_t number, Span place, const Reader& reader) {
-  if (seen[number]) {
+  const auto at = static_cast<std::size_t>(number);
+  if (seen[at]) {
     const bool is_sub = seen.size() == 0x100;
     reader.findings.add(rules::duplicate_object, place,
                         is_sub ? fmt::format("duplicate sub-index {:02X}h; the first is used", number)
@@ -350,7 +351,7 @@ bool is_first(std::vector<bool>& seen, std::uint64_t number, Span place, const R
                         "remove one of them, or correct its number");
     return false;
   }
-  seen[number] = true;
+  seen[at] = true;
   return true;
 }
 

@@ -435,7 +435,8 @@ void Monitor::finish() {
 Bytes Monitor::value_in(const Description& description, const SdoTransfer& transfer) {
   const std::optional<ValueType> type = description.type_of(transfer.index, transfer.sub_index);
   const bool is_shorter = !transfer.has_size && type && type->size != 0 && type->size < transfer.data.size();
-  return {transfer.data.begin(), is_shorter ? transfer.data.begin() + type->size : transfer.data.end()};
+  return {transfer.data.begin(),
+          is_shorter ? transfer.data.begin() + static_cast<std::ptrdiff_t>(type->size) : transfer.data.end()};
 }
 
 void Monitor::report(std::uint8_t node, const SdoTransfer& transfer, Micros time) {
