@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-about="codict, the tool for device descriptions${full:+, with its program, and the bus tool lexican, clang with sanitizers; --all: codict also linked statically}"
+about="codict, the tool for device descriptions${full:+, with its program, and the bus tool lexican, clang with sanitizers; --all: both also linked statically, lexican for three CPUs}"
 minutes=${full:+5}
 : "${minutes:=2}"
 . "$root/tests/fuzz/build.sh"
 packages=("${build_packages[@]}" "${tool_packages[@]}")
 [ -z "$full" ] || packages+=("${clang_packages[@]}" "${arm_packages[@]}" python3 chromium groff-base=groff tmux)
+[ -z "$all" ] || packages+=(qemu-user-static=qemu-aarch64-static
+  g++-aarch64-linux-gnu=aarch64-linux-gnu-g++ g++-arm-linux-gnueabihf=arm-linux-gnueabihf-g++)
 
 # The contributor's run builds and tests only the library of the tool, without sanitizers and fuzz targets: the program
 # takes longer to build.
@@ -19,10 +21,18 @@ lane() {
   fi
 }
 
+# build.sh fetches the libraries of the other CPUs into its build directory: no architecture is added to the machine.
 linked_statically() {
-  local source=tools/codict targets=(codict)
-  build_tree codict-static -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_STATIC=ON || return
-  run_tap "$root/tools/codict/tests/static_test.sh" "$build/codict-static/codict" "$root/tools/codict/tests/fixtures"
+  local source=tools/codict targets=(codict) architecture node=$build/codict/demo/linux_node/lexican-demo-node
+  local -A emulators=([amd64]=qemu-x86_64-static [arm64]=qemu-aarch64-static [armhf]=qemu-arm-static)
+  emulators[$(dpkg --print-architecture)]=
+  build_tree codict-static -DLEXICAN_STATIC=ON && run_tap "$root/tools/static/test.sh" "$build/codict-static/codict"
+  for architecture in "${!emulators[@]}"; do
+    check "lexican as one file for $architecture" "$root/tools/static/build.sh" lexican "$architecture" \
+      -DLEXICAN_WARNINGS_AS_ERRORS=ON
+    run_tap "$root/tools/static/test.sh" "$build/static-$architecture/tools/lexican/lexican" "$node" \
+      "${emulators[$architecture]}"
+  done
 }
 
 # Compiled by clang, which takes half the time of gcc; lane package compiles the program with gcc. Only those checks for
