@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-about="codict, the tool for device descriptions${full:+, with its program, and the bus tool lexican, clang with sanitizers; --all: both also linked statically, lexican for three CPUs}"
+about="codict, the tool for device descriptions${full:+, with its program, and the bus tool lexican, clang with sanitizers; --all: both also linked statically, lexican for three CPUs, and as Debian packages}"
 minutes=${full:+5}
 : "${minutes:=2}"
 . "$root/tests/fuzz/build.sh"
 packages=("${build_packages[@]}" "${tool_packages[@]}")
 [ -z "$full" ] || packages+=("${clang_packages[@]}" "${arm_packages[@]}" python3 chromium groff-base=groff tmux)
-[ -z "$all" ] || packages+=(qemu-user-static=qemu-aarch64-static
+[ -z "$all" ] || packages+=(debhelper=dh dpkg-dev=dpkg-buildpackage lintian qemu-user-static=qemu-aarch64-static
   g++-aarch64-linux-gnu=aarch64-linux-gnu-g++ g++-arm-linux-gnueabihf=arm-linux-gnueabihf-g++)
 
 # The contributor's run builds and tests only the library of the tool, without sanitizers and fuzz targets: the program
@@ -18,6 +18,7 @@ lane() {
   else
     all_cases
     [ -z "$all" ] || linked_statically
+    [ -z "$all" ] || debian_packages
   fi
 }
 
@@ -33,6 +34,21 @@ linked_statically() {
     run_tap "$root/tools/static/test.sh" "$build/static-$architecture/tools/lexican/lexican" "$node" \
       "${emulators[$architecture]}"
   done
+}
+
+debian_packages() {
+  copy_sources
+  cp -r "$copy/tools/debian" "$copy/debian"
+  check "the Debian packages have the version of the project" same_version
+  check "build of the Debian packages" in_copy env DEB_BUILD_OPTIONS=noautodbgsym dpkg-buildpackage -b -us -uc
+  check "lintian" in_copy lintian --fail-on error,warning
+}
+
+in_copy() { (cd "$copy" && "$@"); }
+
+same_version() {
+  local version
+  version=$(in_copy dpkg-parsechangelog -S Version) && grep "^project(lexican VERSION $version " "$root/CMakeLists.txt"
 }
 
 # Compiled by clang, which takes half the time of gcc; lane package compiles the program with gcc. Only those checks for
