@@ -70,13 +70,13 @@ std::uint32_t BusHost::lost_frames() {
 }
 
 void BusHost::wait(Micros time) {
-  pollfd wanted[] = {device_.bus.wanted(), master_.bus.wanted()};
+  pollfd wanted[] = {device_.bus.wanted(), master_.bus.wanted(), {further_descriptor(), POLLIN, 0}};
   timespec timeout{};
   const bool has_frames = device_.may_have_frames || master_.may_have_frames;
   const Micros limit = has_frames ? 0 : std::min(time, second);
   timeout.tv_sec = static_cast<time_t>(limit / second);
   timeout.tv_nsec = static_cast<long>(limit % second * 1000);
-  ppoll(wanted, 2, &timeout, &interruption_.while_waiting());
+  ppoll(wanted, 3, &timeout, &interruption_.while_waiting());
   for (const End* const end : {&device_, &master_}) {
     if (end->role != Role::client && !end->bus.fault().empty()) {
       end->bus.restore();

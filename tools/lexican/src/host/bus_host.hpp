@@ -33,7 +33,15 @@ class BusHost : public Host {
   bool bus_lost() override { return device_.is_lost() || master_.is_lost(); }
   Micros now() override { return co::monotonic_ns() / 1000; }
   void wait(Micros time) override;
-  bool interrupted() override { return Interruption::happened() || (device_.role != Role::device && bus_lost()); }
+  bool interrupted() override {
+    return Interruption::happened() || is_cancelled() || (device_.role != Role::device && bus_lost());
+  }
+  /// Returns true if the user has cancelled what the nodes do, but not the program.
+  virtual bool is_cancelled() const { return false; }
+
+ protected:
+  /// Returns a descriptor that also ends wait() when it is readable; -1: none.
+  virtual int further_descriptor() const { return -1; }
 
  private:
   /// The bus as a node uses it.

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "bus/clock.hpp"
 #include "program/rate.hpp"
 #include "program/verb.hpp"
 
@@ -18,40 +19,12 @@ using host_bus::Micros;
 
 namespace {
 
-/// Returns the number of bytes of the character of UTF-8 that a text begins with; 0: it is none.
-std::size_t length_of_character(std::string_view text) {
-  const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[n]); };
-  const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
-  bool is_valid = text.size() >= length && byte(0) < 0xF5 && (byte(0) < 0x80 || byte(0) >= 0xC2);
-  for (std::size_t n = 1; n < length && is_valid; ++n) {
-    is_valid = (byte(n) & 0xC0U) == 0x80;
-  }
-  return is_valid ? length : 0;
-}
-
-/// Returns whether a character of UTF-8 controls a terminal, or changes the direction of writing.
-bool is_control(std::string_view character) {
-  const std::string_view two = character.substr(0, 2);
-  const unsigned char last = static_cast<unsigned char>(character.back());
-  return (character.size() == 1 && (last < 0x20 || last == 0x7F)) ||
-         (character.size() == 2 && character.front() == '\xC2' && last < 0xA0) ||
-         (character.size() == 3 && two == "\xE2\x80" && last >= 0xAA && last <= 0xAE) ||
-         (character.size() == 3 && two == "\xE2\x81" && last >= 0xA6 && last <= 0xA9);
-}
-
-std::string printable(std::string_view text) {
-  std::string result;
-  while (!text.empty()) {
-    const std::size_t length = length_of_character(text);
-    const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
-    const bool is_shown = length != 0 && (character == "\n" || !is_control(character));
-    result += is_shown ? character : std::string_view("?");
-    text.remove_prefix(character.size());
-  }
-  return result;
-}
+Console* console = nullptr;  // null: the standard streams are used
 
 }  // namespace
+
+Console::Console() { console = this; }
+Console::~Console() { console = nullptr; }
 
 void add_bus_options(Arguments& arguments, Common& common) {
   std::string kinds;
@@ -193,6 +166,22 @@ std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only,
   return status == ok ? std::move(bus) : nullptr;
 }
 
+void LostBus::reopen(host_bus::Bus& bus) {
+  if (!is_lost_) {
+    print_note(bus.fault() + "; waiting for it");
+    is_lost_ = true;
+  }
+  const Micros now = host_bus::clock_now(CLOCK_MONOTONIC);
+  if (now - last_ < reopen_interval) {
+    return;
+  }
+  last_ = now;
+  if (bus.restore()) {
+    print_note("the bus is back");
+    is_lost_ = false;
+  }
+}
+
 bool read_descriptions(const Common& common, describe::Network& network) {
   for (const std::string& file : common.eds) {
     std::string why;
@@ -221,17 +210,10 @@ std::uint8_t node_of(std::string_view text) {
   return error == std::errc() && next == end && node <= 127 ? node : std::uint8_t{0};
 }
 
-std::string state_text(std::uint8_t state) {
-  switch (state) {
-    case 0x00: return "boot-up";
-    case 0x04: return "stopped";
-    case 0x05: return "operational";
-    case 0x7F: return "pre-operational";
-    default: return fmt::format("unknown state {:02X}h", state);
-  }
-}
-
 bool is_confirmed(const std::string& question) {
+  if (console != nullptr) {
+    return console->confirm(question);
+  }
   fmt::print(stderr, "{} [y/N] ", question);
   sigset_t while_waiting;
   sigprocmask(SIG_BLOCK, nullptr, &while_waiting);
@@ -285,10 +267,17 @@ const char* status_text(int status) {
 
 void print_message(std::string_view text) {
   print_note(text);
+  if (console != nullptr) {
+    return;
+  }
   fault_messages() += (fault_messages().empty() ? "" : "\n") + std::string(text);
 }
 
 void print_note(std::string_view text) {
+  if (console != nullptr) {
+    console->show(printable(text) + '\n');
+    return;
+  }
   std::fflush(stdout);  // in one stream, the lines keep their order
   fmt::print(stderr, "lexican: {}\n", printable(text));
 }
@@ -304,10 +293,16 @@ int finish(const Common& common, int status) {
 
 void print(std::string_view text) {
   const std::string shown = printable(text);
+  if (console != nullptr) {
+    console->show(shown);
+    return;
+  }
   std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
 
 void print_red(std::string_view line) { fmt::print("\033[31m{}\033[0m\n", printable(line)); }
+
+bool shows_progress() { return console == nullptr && isatty(STDERR_FILENO) != 0; }
 
 bool has_colour() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
 

@@ -35,6 +35,20 @@ std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t ti
   return identity;
 }
 
+bool LibraryFiles::describe(std::uint8_t node, const describe::Identity& identity) {
+  if (network_.of(node).device() != nullptr && files_.find(node) == files_.end()) {
+    return false;
+  }
+  std::optional<describe::Known> known = describe::find_description(describe::user_library(), identity);
+  if (!known || files_[node] == known->file) {
+    return false;
+  }
+  print_note(fmt::format("node {} is described by {}", node, known->file));
+  files_[node] = known->file;
+  network_.describe(node, std::move(known->description));
+  return true;
+}
+
 bool read_device_type(SdoClient& sdo, std::uint32_t timeout, codict::Device& device, Transfer& transfer) {
   transfer = sdo.upload(describe::device_type.first, describe::device_type.second, {SdoClient::small, timeout, {}});
   if (transfer.done() && transfer.data.size() == 4) {
@@ -82,7 +96,7 @@ std::optional<describe::Known> upload_description(SdoClient& sdo, std::uint8_t n
       !is_confirmed(fmt::format("node {} stores its description (1021h); upload it to {}?", node, library))) {
     return std::nullopt;
   }
-  ProgressLine progress(std::cerr, is_terminal() ? Progress::Form::bar : Progress::Form::none);
+  ProgressLine progress(std::cerr, shows_progress() ? Progress::Form::bar : Progress::Form::none);
   const Transfer eds =
       sdo.upload(store_eds, 0, {largest_eds, common.timeout, [&](const Amount& amount) { progress.update(amount); }});
   progress.end();

@@ -3,6 +3,8 @@
 /// The identity of a device, and the description that it stores.
 #pragma once
 
+#include <map>
+
 #include "client/sdo_client.hpp"
 #include "describe/configuration.hpp"
 #include "describe/library.hpp"
@@ -18,6 +20,19 @@ std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t ti
 /// \retval nothing  it does not answer; \a transfer: the one that has failed
 std::optional<describe::Identity> identify_device(SdoClient& sdo, std::uint8_t node, const Common& common,
                                                   describe::Network& network, Transfer& transfer);
+
+/// Describes the nodes of a network by the user's library, unless --eds describes them.
+class LibraryFiles {
+ public:
+  /// \a network must outlive it.
+  explicit LibraryFiles(describe::Network& network) : network_(network) {}
+  /// Prints which file describes the node. \retval true  the node has a new description
+  bool describe(std::uint8_t node, const describe::Identity& identity);
+
+ private:
+  describe::Network& network_;
+  std::map<std::uint8_t, std::string> files_;  ///< by node-ID
+};
 
 /// Reads the device type into a description: profiles decide what is a command.
 /// \retval false  the device does not answer; \a transfer: the upload

@@ -16,6 +16,7 @@
 
 #include "bus/clock.hpp"
 #include "describe/monitor.hpp"
+#include "program/identity.hpp"
 #include "program/verb.hpp"
 
 namespace lexican::program {
@@ -37,12 +38,6 @@ struct MonOptions {
   std::string record;  ///< --log
   bool shows_all = false;
 };
-
-bool contains_ignoring_case(std::string_view text, std::string_view part) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  return std::search(text.begin(), text.end(), part.begin(), part.end(),
-                     [&](char a, char b) { return lower(a) == lower(b); }) != text.end();
-}
 
 /// Prints events, as text or as JSON.
 class Printer {
@@ -182,22 +177,23 @@ class Mon {
  public:
   Mon(const MonOptions& options, describe::Network& network)
       : options_(options),
-        network_(network),
+        described_(network),
         printer_(options),
         monitor_(
             network, [this](const Event& event) { printer_.show(event); },
-            [this](std::uint8_t node, const describe::Identity& identity) { return describe_node(node, identity); }) {}
+            [this](std::uint8_t node, const describe::Identity& identity) {
+              return described_.describe(node, identity);
+            }) {}
 
   int run(host_bus::Bus& bus) {
     const Interruption interruption;
-    Micros reopened = 0;
     while (!Interruption::happened()) {
       receive(bus);
       if (bus.wanted().fd < 0 && bus.log() != nullptr) {
         break;
       }
       if (bus.wanted().fd < 0) {
-        reopen(bus, reopened);
+        lost_.reopen(bus);
       }
       std::fflush(stdout);
       wait(bus, interruption);
@@ -209,38 +205,6 @@ class Mon {
   Recorder& recorder() { return recorder_; }
 
  private:
-  /// Describes a node by the user's library, unless --eds describes it.
-  bool describe_node(std::uint8_t node, const describe::Identity& identity) {
-    if (network_.of(node).device() != nullptr && files_.find(node) == files_.end()) {
-      return false;
-    }
-    std::optional<describe::Known> known = describe::find_description(describe::user_library(), identity);
-    if (!known || files_[node] == known->file) {
-      return false;
-    }
-    print_note(fmt::format("node {} is described by {}", node, known->file));
-    files_[node] = known->file;
-    network_.describe(node, std::move(known->description));
-    return true;
-  }
-
-  /// Tries to open a lost bus again, and says when it is lost and when it is back.
-  void reopen(host_bus::Bus& bus, Micros& last) {
-    if (!is_lost_) {
-      print_note(bus.fault() + "; waiting for it");
-      is_lost_ = true;
-    }
-    const Micros now = host_bus::clock_now(CLOCK_MONOTONIC);
-    if (now - last < reopen_interval) {
-      return;
-    }
-    last = now;
-    if (bus.restore()) {
-      print_note("the bus is back");
-      is_lost_ = false;
-    }
-  }
-
   void receive(host_bus::Bus& bus) {
     while (const std::optional<Entry> entry = bus.receive()) {
       printer_.begin_at(entry->time);
@@ -326,12 +290,11 @@ class Mon {
   }
 
   const MonOptions& options_;
-  describe::Network& network_;
-  std::map<std::uint8_t, std::string> files_;  ///< of the user's library, by node-ID
+  LibraryFiles described_;
   Printer printer_;
   describe::Monitor monitor_;
   Recorder recorder_;
-  bool is_lost_ = false;
+  LostBus lost_;
 };
 
 int run_mon(MonOptions& options) {

@@ -6,29 +6,17 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "program/command.hpp"
+#include "program/actions.hpp"
 
 namespace lexican::program {
 namespace {
 
 constexpr std::uint8_t stopped_state = 0x04;
 
-struct Command {
-  const char* name;
-  CO_NMT_COMMAND specifier;
-  std::uint8_t state;  ///< that error control shows afterwards; a reset ends with a boot-up message, 0
-};
-
-constexpr Command commands[] = {
+constexpr StateCommand commands[] = {
     {"start", CO_NMT_COMMAND_START, 0x05},          {"stop", CO_NMT_COMMAND_STOP, stopped_state},
     {"preop", CO_NMT_COMMAND_PREOP, 0x7F},          {"reset", CO_NMT_COMMAND_RESET_NODE, 0x00},
     {"reset-comm", CO_NMT_COMMAND_RESET_COM, 0x00},
-};
-
-struct NmtOptions {
-  Common common;
-  std::string command;
-  std::optional<std::string> node;
 };
 
 /// Waits until an adapter has the whole command, and for its answer.
@@ -55,7 +43,8 @@ HeartbeatTime read_heartbeat_time(Session& session, std::uint32_t timeout) {
 }
 
 /// Prints why the state of a device is unknown.
-int report_unknown(std::uint8_t node, const Command& command, std::uint32_t timeout, const HeartbeatTime& heartbeat) {
+int report_unknown(std::uint8_t node, const StateCommand& command, std::uint32_t timeout,
+                   const HeartbeatTime& heartbeat) {
   const std::string sent = fmt::format("sent; node {} has sent no ", node);
   if (command.state == 0) {
     print_message(sent + fmt::format("boot-up message within {} ms", timeout));
@@ -79,7 +68,7 @@ int report_unknown(std::uint8_t node, const Command& command, std::uint32_t time
 
 /// Waits for the state, and prints whether the device has it. A heartbeat may be slower than --timeout.
 /// \a before: what was read before the command; nothing: it is read if there is no heartbeat.
-int report_state(Session& session, std::uint8_t node, const Command& command, const Common& common,
+int report_state(Session& session, std::uint8_t node, const StateCommand& command, const Common& common,
                  const std::optional<HeartbeatTime>& before) {
   std::uint8_t last = wait_for_state(session, node, command.state, common.timeout * millisecond);
   const bool has_heartbeat = command.state != 0;
@@ -113,48 +102,46 @@ int report_state(Session& session, std::uint8_t node, const Command& command, co
   return ok;
 }
 
-int run_nmt(NmtOptions& options) {
-  if (!place_node(options.common, {&options.node})) {
-    return usage;
-  }
+}  // namespace
+
+std::optional<StateCommand> state_command(const NmtOptions& options) {
   if (!options.node) {
     print_message("which node? Give its node-ID, 1 to 127, or all");
-    return usage;
+    return std::nullopt;
   }
   const bool is_all = options.node == "all";
   const std::uint8_t node = is_all ? std::uint8_t{0} : node_of(*options.node);
   if (!is_all && node == 0) {
     print_message("'" + *options.node + "' is no node-ID, which is 1 to 127, or all");
-    return usage;
+    return std::nullopt;
   }
-  const Command* chosen = nullptr;
-  for (const Command& command : commands) {
-    chosen = options.command == command.name ? &command : chosen;
-  }
-  int status = ok;
-  std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
-  if (bus == nullptr) {
-    return status;
-  }
-  const bool is_grave = is_all || chosen->state == 0;
-  if (is_grave) {
-    const Interruption interruption;
-    status = agree(*bus, options.common, fmt::format("{} {}", chosen->name, *options.node));
-    if (status != ok) {
-      return status;
+  for (const StateCommand& command : commands) {
+    if (options.command == command.name) {
+      StateCommand found = command;
+      found.node = node;
+      return found;
     }
   }
-  Session session(std::move(bus), is_all ? std::uint8_t{127} : node);
+  print_message("'" + options.command + "' is no command; commands are start, stop, preop, reset and reset-comm");
+  return std::nullopt;
+}
+
+int agree(const host_bus::Bus& bus, const NmtOptions& options, const StateCommand& command) {
+  return command.is_grave() ? agree(bus, options.common, fmt::format("{} {}", command.name, *options.node)) : int{ok};
+}
+
+int change_state(Session& session, const NmtOptions& options, const StateCommand& command) {
+  const bool is_all = command.node == 0;
   const Micros timeout = options.common.timeout * millisecond;
   std::optional<HeartbeatTime> before;
-  if (!is_all && chosen->state == stopped_state) {  // it answers no SDO afterwards
+  if (!is_all && command.state == stopped_state) {  // it answers no SDO afterwards
     before = read_heartbeat_time(session, options.common.timeout);
   }
   if (session.is_interrupted()) {
     print_message("interrupted; nothing was sent");
     return interrupted;
   }
-  if (!send_command(session.bus(), session.host(), chosen->specifier, node, timeout)) {
+  if (!send_command(session.bus(), session.host(), command.specifier, command.node, timeout)) {
     const std::string& fault = session.bus().fault();
     print_message("the command was not sent: " + (fault.empty() ? "the bus accepts no frames" : fault));
     return session.is_interrupted() ? interrupted : bus_fault;
@@ -162,21 +149,47 @@ int run_nmt(NmtOptions& options) {
   if (is_all) {
     flush(session.bus(), session.host());
   }
-  status = is_all ? ok : report_state(session, node, *chosen, options.common, before);
+  const int status = is_all ? int{ok} : report_state(session, command.node, command, options.common, before);
   if (!session.bus().refusal().empty()) {
     print_message(session.bus().refusal() + ": the command was not sent");
     return bus_fault;
   }
   if (status == ok && is_all && !options.common.is_json) {
-    print(fmt::format("{} was sent to all nodes\n", chosen->name));
+    print(fmt::format("{} was sent to all nodes\n", command.name));
   }
   if (options.common.is_json) {
-    const nlohmann::json json = {{"command", chosen->name},
-                                 {"node", is_all ? nlohmann::json("all") : nlohmann::json(node)},
+    const nlohmann::json json = {{"command", command.name},
+                                 {"node", is_all ? nlohmann::json("all") : nlohmann::json(command.node)},
                                  {"done", status == ok}};
     print(json.dump() + '\n');
   }
   return status;
+}
+
+namespace {
+
+int run_nmt(NmtOptions& options) {
+  if (!place_node(options.common, {&options.node})) {
+    return usage;
+  }
+  const std::optional<StateCommand> command = state_command(options);
+  if (!command) {
+    return usage;
+  }
+  int status = ok;
+  std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
+  if (bus == nullptr) {
+    return status;
+  }
+  {
+    const Interruption interruption;
+    status = agree(*bus, options, *command);
+  }
+  if (status != ok) {
+    return status;
+  }
+  Session session(std::move(bus), command->node == 0 ? std::uint8_t{127} : command->node);
+  return change_state(session, options, *command);
 }
 
 }  // namespace
@@ -185,7 +198,7 @@ Verb add_nmt(CommandLine& line) {
   const auto options = std::make_shared<NmtOptions>();
   Arguments arguments = line.add_command("nmt", "Change the NMT state of a device, or of all");
   std::vector<std::string> words;
-  for (const Command& command : commands) {
+  for (const StateCommand& command : commands) {
     words.emplace_back(command.name);
   }
   arguments.add_option("command", options->command, "start, stop, preop, reset or reset-comm").required().one_of(words);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lexican read: reads an object of a device.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,16 +8,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "program/session.hpp"
+#include "program/actions.hpp"
 #include "text/file.hpp"
 
 namespace lexican::program {
 namespace {
-
-struct ReadOptions : TransferOptions {
-  std::string output;  ///< -o
-  std::uint32_t most = 16 * 1024 * 1024;
-};
 
 /// Returns the value as a number, a truth value or a text of printable characters; else null: the bytes are in "data".
 nlohmann::json json_value(const Target& target, const Bytes& data) {
@@ -65,22 +59,8 @@ int write_output(const std::string& path, const Bytes& data) {
   return ok;
 }
 
-int run_read(ReadOptions& options) {
-  Target target;
-  if (!place_node(options.common, {&options.node, &options.object}) || !prepare(options, target)) {
-    return usage;
-  }
-  int status = ok;
-  std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
-  if (bus == nullptr) {
-    return status;
-  }
-  Session session(std::move(bus), target.node);
-  status = find_in_device(session, options, target);
-  if (status != ok) {
-    return status;
-  }
-  ProgressLine progress(std::cerr, isatty(STDERR_FILENO) != 0 ? Progress::Form::bar : Progress::Form::none);
+int upload_target(Session& session, const ReadOptions& options, const Target& target) {
+  ProgressLine progress(std::cerr, shows_progress() ? Progress::Form::bar : Progress::Form::none);
   const auto upload = [&](std::uint32_t most) {
     return session.sdo().upload(target.object.index, target.object.sub_index,
                                 {most, options.common.timeout, [&](const Amount& amount) { progress.update(amount); }});
@@ -112,6 +92,29 @@ int run_read(ReadOptions& options) {
   }
   print(line_of(target, transfer.data));
   return ok;
+}
+
+}  // namespace
+
+int read_object(Session& session, const ReadOptions& options, Target& target) {
+  const int found = find_in_device(session, options, target);
+  return found == ok ? upload_target(session, options, target) : found;
+}
+
+namespace {
+
+int run_read(ReadOptions& options) {
+  Target target;
+  if (!place_node(options.common, {&options.node, &options.object}) || !prepare(options, target)) {
+    return usage;
+  }
+  int status = ok;
+  std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
+  if (bus == nullptr) {
+    return status;
+  }
+  Session session(std::move(bus), target.node);
+  return read_object(session, options, target);
 }
 
 }  // namespace

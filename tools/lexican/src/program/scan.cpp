@@ -7,10 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "describe/monitor.hpp"
-#include "host/bus_host.hpp"
+#include "program/actions.hpp"
 #include "program/identity.hpp"
-#include "program/search.hpp"
-#include "program/verb.hpp"
 
 namespace lexican::program {
 namespace {
@@ -140,7 +138,16 @@ void print_json_address(const LssAddress& address) {
   print(json.dump() + '\n');
 }
 
-/// Prints why no device has answered, by the report of the controller.
+/// Returns ", bus load 1.2 %" during the search; nothing if the bit rate is unknown.
+std::string load_text(std::uint64_t bits, std::uint32_t bit_rate, Micros time) {
+  describe::Statistics numbers;
+  numbers.last = time;
+  numbers.bits = bits;
+  return bit_rate == 0 ? std::string() : fmt::format(", bus load {:.1f} %", numbers.load(bit_rate));
+}
+
+}  // namespace
+
 int report_silence(const host_bus::Bus& bus, const HostLine& line) {
   if (!bus.refusal().empty()) {
     print_message(bus.refusal());
@@ -163,14 +170,27 @@ int report_silence(const host_bus::Bus& bus, const HostLine& line) {
   return no_answer;
 }
 
-/// Returns ", bus load 1.2 %" during the search; nothing if the bit rate is unknown.
-std::string load_text(const BusHost& host, std::uint32_t bit_rate, Micros begin, Micros end) {
-  describe::Statistics numbers;
-  numbers.first = begin;
-  numbers.last = end;
-  numbers.bits = host.bits();
-  return bit_rate == 0 ? std::string() : fmt::format(", bus load {:.1f} %", numbers.load(bit_rate));
+std::string summary_of(const Devices& found, const host_bus::Bus& bus, std::uint64_t bits, Micros time) {
+  const std::size_t nodes = found.devices.size();
+  return fmt::format("{} {}", nodes, nodes == 1 ? "node" : "nodes") +
+         (found.unconfigured.empty() ? std::string()
+                                     : fmt::format(" and {} without node-ID", found.unconfigured.size())) +
+         fmt::format(" in {:.1f} s{}\n", static_cast<double>(time) / 1e6, load_text(bits, bus.bit_rate(), time));
 }
+
+void report_conflicts(const Devices& found) {
+  if (!found.lss_fault.empty()) {
+    print_note("LSS: " + found.lss_fault);
+  }
+  for (const Device& device : found.devices) {
+    if (device.found.answers > 1) {
+      print_note(fmt::format("node {} has answered one request {} times: several devices may have this node-ID",
+                             device.found.node, device.found.answers));
+    }
+  }
+}
+
+namespace {
 
 int run_scan(const ScanOptions& options) {
   int status = ok;
@@ -183,8 +203,7 @@ int run_scan(const ScanOptions& options) {
   HostLine line(host);
   const Micros begin = host.now();
   const Devices found = find_devices(host, line, options.common.timeout);
-  const Micros end = host.now();
-  const std::string load = load_text(host, bus->bit_rate(), begin, end);
+  const std::string summary = summary_of(found, *bus, host.bits(), host.now() - begin);
   if (Interruption::happened()) {
     print_message("interrupted");
     return interrupted;
@@ -193,17 +212,9 @@ int run_scan(const ScanOptions& options) {
     print_message(bus->fault());
     return bus_fault;
   }
-  if (!found.lss_fault.empty()) {
-    print_note("LSS: " + found.lss_fault);
-  }
+  report_conflicts(found);
   if (found.devices.empty() && found.unconfigured.empty()) {
     return report_silence(*bus, line);
-  }
-  for (const Device& device : found.devices) {
-    if (device.found.answers > 1) {
-      print_note(fmt::format("node {} has answered one request {} times: several devices may have this node-ID",
-                             device.found.node, device.found.answers));
-    }
   }
   const Files files = find_files(found, host, options.common);
   if (Interruption::happened()) {
@@ -218,12 +229,7 @@ int run_scan(const ScanOptions& options) {
     return ok;
   }
   print_table(found, files);
-  const std::size_t nodes = found.devices.size();
-  print(fmt::format("{} {}", nodes, nodes == 1 ? "node" : "nodes"));
-  if (!found.unconfigured.empty()) {
-    print(fmt::format(" and {} without node-ID", found.unconfigured.size()));
-  }
-  print(fmt::format(" in {:.1f} s{}\n", static_cast<double>(end - begin) / 1e6, load));
+  print(summary);
   return ok;
 }
 

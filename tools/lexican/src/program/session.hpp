@@ -19,29 +19,48 @@ class Session {
  public:
   /// \a bus: as open_bus() has returned it. \a observer: called for each frame during the transfers.
   Session(std::unique_ptr<host_bus::Bus> bus, std::uint8_t server, Node::Observer observer = {})
-      : bus_(std::move(bus)),
+      : own_(std::make_unique<Own>(std::move(bus))),
+        bus_(*own_->bus),
+        host_(own_->host),
         client_(host_, server, [this, server, observer](bool is_received, const CO_IF_FRM& frame) {
-          if (is_received && frame.Identifier == 0x700U + server && frame.DLC == 1) {
-            state_ = frame.Data[0] & 0x7FU;
-          }
+          follow(is_received, frame, server);
           if (observer) {
             observer(is_received, frame);
           }
+        }) {}
+  /// Uses an open bus. \a host: that of \a bus; both must outlive the session.
+  Session(host_bus::Bus& bus, BusHost& host, std::uint8_t server)
+      : bus_(bus), host_(host), client_(host_, server, [this, server](bool is_received, const CO_IF_FRM& frame) {
+          follow(is_received, frame, server);
         }) {}
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
   SdoClient& sdo() { return client_.sdo(); }
-  host_bus::Bus& bus() { return *bus_; }
+  host_bus::Bus& bus() { return bus_; }
   BusHost& host() { return host_; }
   /// Returns the NMT state of the last heartbeat of the server during the transfers; nothing: none was received.
   std::optional<std::uint8_t> state() const { return state_; }
-  bool is_interrupted() const { return Interruption::happened(); }
+  /// Returns true if the user has interrupted the program, or has cancelled the command.
+  bool is_interrupted() const { return Interruption::happened() || host_.is_cancelled(); }
 
  private:
-  Interruption interruption_;
-  std::unique_ptr<host_bus::Bus> bus_;
-  BusHost host_{*bus_, interruption_};
+  struct Own {
+    explicit Own(std::unique_ptr<host_bus::Bus> opened) : bus(std::move(opened)) {}
+    Interruption interruption;
+    std::unique_ptr<host_bus::Bus> bus;
+    BusHost host{*bus, interruption};
+  };
+
+  void follow(bool is_received, const CO_IF_FRM& frame, std::uint8_t server) {
+    if (is_received && frame.Identifier == 0x700U + server && frame.DLC == 1) {
+      state_ = frame.Data[0] & 0x7FU;
+    }
+  }
+
+  std::unique_ptr<Own> own_;  ///< null: the bus is that of the caller
+  host_bus::Bus& bus_;
+  BusHost& host_;
   std::optional<std::uint8_t> state_;
   DeviceClient client_;
 };

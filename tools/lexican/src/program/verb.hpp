@@ -14,6 +14,7 @@
 #include "cli/arguments.hpp"
 #include "describe/description.hpp"
 #include "host/interruption.hpp"
+#include "program/printable.hpp"
 
 namespace lexican::program {
 
@@ -78,6 +79,18 @@ void add_timeout_option(Arguments& arguments, Common& common, std::uint32_t time
 std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only, int& status);
 /// Time after which restore() of a lost bus is tried again, µs.
 constexpr host_bus::Micros reopen_interval = 500'000;
+/// Opens a lost bus again, and prints when it is lost and when it is back.
+class LostBus {
+ public:
+  /// Tries to open the bus, at most each reopen_interval.
+  void reopen(host_bus::Bus& bus);
+  bool is_lost() const { return is_lost_; }
+
+ private:
+  bool is_lost_ = false;
+  host_bus::Micros last_ = 0;
+};
+
 /// Reads the descriptions of --eds. Prints the reason if that fails.
 bool read_descriptions(const Common& common, describe::Network& network);
 
@@ -87,10 +100,7 @@ std::uint32_t bit_rate_of(std::string_view text);
 /// Converts a node-ID, 1 to 127; 0: it is none.
 std::uint8_t node_of(std::string_view text);
 
-/// Returns the name of an NMT state as error control shows it; 0 is the boot-up message.
-std::string state_text(std::uint8_t state);
-
-/// Asks on the terminal. An Interruption must exist, and ends the question.
+/// Asks on the terminal, or on the Console. An Interruption must exist, and ends the question.
 /// \retval true   the answer is yes
 /// \retval false  it is another, or Interruption::happened()
 bool is_confirmed(const std::string& question);
@@ -99,6 +109,21 @@ bool is_confirmed(const std::string& question);
 /// the question.
 /// \retval status  ok: it may; else nothing was sent, and the reason is printed
 int agree(const host_bus::Bus& bus, const Common& common, const std::string& command);
+
+/// Shows output and questions of verbs on a screen during its lifetime, instead of on the standard streams. One
+/// instance at a time.
+class Console {
+ public:
+  Console();
+  virtual ~Console();
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+
+  /// Shows printable text with its line ends.
+  virtual void show(const std::string& text) = 0;
+  /// Asks a question. \retval true  the answer is yes
+  virtual bool confirm(const std::string& question) = 0;
+};
 
 /// Prints "lexican: text" on the standard error output, control characters as question marks: why the verb fails, or a
 /// remedy.
@@ -113,6 +138,8 @@ int finish(const Common& common, int status);
 void print(std::string_view text);
 /// Prints a line in red.
 void print_red(std::string_view line);
+/// Returns true if the standard error output is a terminal on which progress is shown.
+bool shows_progress();
 /// Returns true if the standard output is a terminal on which colours are wanted.
 bool has_colour();
 

@@ -6,21 +6,15 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "program/session.hpp"
+#include "program/actions.hpp"
 #include "text/file.hpp"
 
 namespace lexican::program {
 namespace {
 
-struct WriteOptions : TransferOptions {
-  std::optional<std::string> value;
-  std::string file;
-  bool verifies = false;
-};
-
 /// Converts what has to be written.
 /// \retval false  the reason is printed
-bool data_of(const WriteOptions& options, const Target& target, bool is_forced, Bytes& data) {
+bool data_of(const WriteOptions& options, const Target& target, Bytes& data) {
   std::string why;
   if (options.value.has_value() != options.file.empty()) {
     print_message("give a value, or --file, and not both");
@@ -57,7 +51,7 @@ bool data_of(const WriteOptions& options, const Target& target, bool is_forced, 
   }
   const Encoded encoded = encode(*target.type, value);
   why = !encoded.fault.empty() ? encoded.fault
-        : is_forced            ? std::string()
+        : options.is_forced    ? std::string()
                                : beyond_limits(target.network.of(target.node), target.node,
                                                {target.object.index, target.object.sub_index}, value);
   if (!why.empty()) {
@@ -87,35 +81,8 @@ int verify(Session& session, const Target& target, const WriteOptions& options, 
   return ok;
 }
 
-int run_write(WriteOptions& options, bool is_forced) {
-  Target target;
-  Bytes data;
-  std::vector<std::optional<std::string>*> words = {&options.node, &options.object};
-  if (options.file.empty()) {
-    words.push_back(&options.value);
-  }
-  if (!place_node(options.common, words)) {
-    return usage;
-  }
-  if (!prepare(options, target) || (target.is_found && !data_of(options, target, is_forced, data))) {
-    return usage;
-  }
-  int status = ok;
-  std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
-  if (bus == nullptr) {
-    return status;
-  }
-  Session session(std::move(bus), target.node);
-  if (!target.is_found) {
-    status = find_in_device(session, options, target);
-    if (status == ok && !data_of(options, target, is_forced, data)) {
-      status = usage;
-    }
-  }
-  if (status != ok) {
-    return status;
-  }
-  ProgressLine progress(std::cerr, isatty(STDERR_FILENO) != 0 ? Progress::Form::bar : Progress::Form::none);
+int download_target(Session& session, const WriteOptions& options, const Target& target, const Bytes& data) {
+  ProgressLine progress(std::cerr, shows_progress() ? Progress::Form::bar : Progress::Form::none);
   const Transfer transfer = session.sdo().download(
       target.object.index, target.object.sub_index, data,
       {SdoClient::small, options.common.timeout, [&](const Amount& amount) { progress.update(amount); }});
@@ -123,7 +90,7 @@ int run_write(WriteOptions& options, bool is_forced) {
   if (!transfer.done()) {
     return report_failure(session, target, transfer);
   }
-  status = options.verifies ? verify(session, target, options, data) : ok;
+  const int status = options.verifies ? verify(session, target, options, data) : ok;
   if (status != ok) {
     return status;
   }
@@ -142,22 +109,59 @@ int run_write(WriteOptions& options, bool is_forced) {
 
 }  // namespace
 
+int write_object(Session& session, const WriteOptions& options, Target& target, const std::optional<Bytes>& data) {
+  if (data) {
+    return download_target(session, options, target, *data);
+  }
+  const int status = find_in_device(session, options, target);
+  Bytes converted;
+  if (status != ok || !data_of(options, target, converted)) {
+    return status != ok ? status : int{usage};
+  }
+  return download_target(session, options, target, converted);
+}
+
+namespace {
+
+int run_write(WriteOptions& options) {
+  Target target;
+  Bytes data;
+  std::vector<std::optional<std::string>*> words = {&options.node, &options.object};
+  if (options.file.empty()) {
+    words.push_back(&options.value);
+  }
+  if (!place_node(options.common, words)) {
+    return usage;
+  }
+  if (!prepare(options, target) || (target.is_found && !data_of(options, target, data))) {
+    return usage;
+  }
+  int status = ok;
+  std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
+  if (bus == nullptr) {
+    return status;
+  }
+  Session session(std::move(bus), target.node);
+  return write_object(session, options, target, target.is_found ? std::optional(data) : std::nullopt);
+}
+
+}  // namespace
+
 Verb add_write(CommandLine& line) {
   const auto options = std::make_shared<WriteOptions>();
-  const auto is_forced = std::make_shared<bool>(false);
   Arguments arguments = line.add_command("write", "Write an object of a device");
   add_transfer_options(arguments, *options);
   arguments.add_option("value", options->value, "Value: a number, text, or pairs of hex digits, by its type");
   arguments.add_option("--file", options->file, "Write the bytes of a file instead, - for standard input");
   arguments.add_flag("--verify", options->verifies, "Read the object afterwards and compare");
-  arguments.add_flag("--force", *is_forced, "Also beyond the limits of the description");
+  arguments.add_flag("--force", options->is_forced, "Also beyond the limits of the description");
   arguments.end_help(
       "Examples:\n"
       "  lexican write 5 1017 500 -i can0\n"
       "  lexican write 5 \"profile velocity\" 2000 --verify -i can0 --eds drive.eds\n"
       "  lexican write 5 1010:1 save -i can0\n"
       "  lexican write 5 1F50:1 --file firmware.bin -i can0");
-  return {arguments, [options, is_forced] { return finish(options->common, run_write(*options, *is_forced)); }};
+  return {arguments, [options] { return finish(options->common, run_write(*options)); }};
 }
 
 }  // namespace lexican::program
