@@ -12,7 +12,8 @@
 # Libraries of the host programs in tools.
 tool_packages=(libcli11-dev=/usr/include/CLI/CLI.hpp libfmt-dev=/usr/include/fmt/format.h
   nlohmann-json3-dev=/usr/include/nlohmann/json.hpp libpugixml-dev=/usr/include/pugixml.hpp
-  libsocketcan-dev=/usr/include/libsocketcan.h libyaml-cpp-dev=/usr/include/yaml-cpp/yaml.h zlib1g-dev=/usr/include/zlib.h)
+  libsocketcan-dev=/usr/include/libsocketcan.h libyaml-cpp-dev=/usr/include/yaml-cpp/yaml.h zlib1g-dev=/usr/include/zlib.h
+  libncurses-dev=/usr/include/curses.h)
 
 probe_found() {
   case $1 in

@@ -57,7 +57,7 @@ def is_log(words):
 
 def is_endless(words):
     """Returns whether a command runs until Ctrl-C."""
-    return words[1] in ("mon", "share") and not is_log(words) and "--help" not in words
+    return words[1] in ("mon", "share", "top") and not is_log(words) and "--help" not in words
 
 
 def comparable(words, text):
@@ -198,7 +198,10 @@ def run_page(bench, page):
     blocks = 0
     for block in BLOCK.finditer(page.read_text()):
         comments = COMMENT.findall(block["comments"])
-        if not block["text"].startswith("$ ") or any(kind == "not run" for kind, _ in comments):
+        if any(kind == "not run" for kind, _ in comments):
+            blocks += 1
+            continue
+        if not block["text"].startswith("$ "):
             continue
         for _, command in comments:
             bench.prepare(command)

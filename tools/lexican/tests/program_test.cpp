@@ -32,6 +32,7 @@ TEST_CASE("lexican: without arguments all verbs are listed") {
         "\n"
         "  scan       Find the devices of a bus: state, profile, identity and name\n"
         "  mon        Show in words what happens on a bus, or in a log\n"
+        "  top        Show nodes, values and events of a bus on a live screen\n"
         "  read       Read an object of a device\n"
         "  write      Write an object of a device\n"
         "  pdo        Show, change, watch and send PDOs\n"
@@ -51,7 +52,7 @@ TEST_CASE("lexican: without arguments all verbs are listed") {
 }
 
 TEST_CASE("lexican: the help of each verb has its options and examples") {
-  for (const char* verb : {"scan", "mon", "read", "write", "nmt"}) {
+  for (const char* verb : {"scan", "mon", "top", "read", "write", "nmt"}) {
     CAPTURE(verb);
     const Ran ran = run({verb, "--help"});
     CHECK(ran.status == 0);

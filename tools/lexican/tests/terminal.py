@@ -140,6 +140,102 @@ def test_question(bench, screen):
     expect(bench, "nmt reset answered y", status == "0" and "node 1 has booted" in shown, (status, shown))
 
 
+class Top:
+    """lexican top on a screen."""
+
+    def __init__(self, screen):
+        self.screen = screen
+        screen.start(f"lexican top {BUS} --eds clock.eds")
+        self.wait(r"^   1 \S+ ")
+
+    def wait(self, pattern):
+        return self.screen.wait(re.compile(pattern, re.MULTILINE).search)
+
+    def shows(self, bench, name, pattern):
+        text = self.wait(pattern)
+        expect(bench, f"top {name}", re.search(pattern, text, re.MULTILINE), text)
+
+    def type(self, key, text=""):
+        """Types a key, and a text at its prompt."""
+        self.screen.tmux("send-keys", "-l", key)
+        if text:
+            self.wait(r":$")
+            self.screen.tmux("send-keys", "-l", text)
+            self.screen.tmux("send-keys", "Enter")
+
+    def resize(self, columns, rows):
+        self.screen.tmux("resize-window", "-x", str(columns), "-y", str(rows))
+
+
+def test_top(bench, screen):
+    settings = screen.run("stty -g")
+    top = Top(screen)
+    top.shows(bench, "shows the node", r"^   1 pre-operational +(<1|\d) s   -  +Lexican demo clock$")
+    top.shows(bench, "shows the keys", r"^r read  w write  n NMT ")
+    top.type("n", "start")
+    top.shows(bench, "shows the command of a key", r"^node 1 is operational\nlexican nmt start 1 -i slcan:ttyACM0@500k$")
+    top.shows(bench, "shows the state", r"^   1 operational ")
+    top.shows(bench, "shows values of PDOs, and their plot", r"^TPDO1 Time, Second +\d+ +\u2800*[\u2801-\u28ff]")
+    top.type("r", "2101")
+    top.shows(bench, "reads", r"^2101h Time zone = 0 \(i16\)\nlexican read 1 2101 -i slcan:ttyACM0@500k --eds clock.eds$")
+    top.type("w", "time zone 60")
+    top.shows(bench, "writes", r'^2101h Time zone = 60 \(i16\)\nlexican write 1 "time zone" 60 -i ')
+    top.type("w", "1000 5 --force")
+    top.shows(bench, "shows a refusal", r"0609 0031h|0601 0002h object is read-only")
+    expect(bench, "top shows faults in red", "refused" in "".join(RED.findall(screen.text("-e"))), screen.text("-e"))
+    top.type("r", "no such object")
+    top.shows(bench, "explains a name that is not known", r"^no object is called 'no such object'")
+    top.type("s")
+    top.shows(bench, "scans", r"^1 node in \d\.\d s.*\nnode-IDs: 1\nlexican scan -i slcan:ttyACM0@500k$")
+    top.type("/", "nmt")
+    top.shows(bench, "filters the events", r"^events with 'nmt' *\n +\d+\.\d+   1  NMT start, node 1$\n\n")
+    top.type("/")
+    top.wait(r"^filter: nmt$")
+    screen.tmux("send-keys", "C-u", "Enter")
+    top.shows(bench, "removes the filter", r"^events *\n")
+    top.type("n", "reset")
+    top.shows(bench, "asks before a reset of a physical bus", r"^reset 1 on a physical bus\? \[y/N\]$")
+    top.type("n")
+    top.shows(bench, "sends no reset without agreement", r"^nothing was sent\nlexican nmt reset 1 ")
+    top.type("n", "reset")
+    top.wait(r"\[y/N\]$")
+    top.type("y")
+    top.shows(bench, "sends the reset", r"^node 1 has booted\nlexican nmt reset 1 ")
+    top.type("?")
+    top.shows(bench, "shows its help", r"^w  write an object: 6081 2000$")
+    top.type("x")
+    for columns, rows in (40, 10), (20, 5), (1, 1), (132, 50), (80, 24):
+        top.resize(columns, rows)
+        pattern = r"^   1 \S+" if columns >= 20 else r"^"
+        top.shows(bench, f"fits {columns} x {rows}", pattern)
+    top.wait(r"^   1 pre-operational")
+    time.sleep(1.5)  # a second heartbeat, which shows its period
+    bench.process.send_signal(signal.SIGSTOP)
+    top.type("r", "2101")
+    top.shows(bench, "shows that a transfer runs", r"^runs; Esc cancels it$")
+    screen.tmux("send-keys", "Escape")
+    top.shows(bench, "cancels a transfer", r"^interrupted; the transfer was aborted$")
+    top.shows(bench, "marks a heartbeat that is overdue", r"^   1 \S+ +\d+ s!")
+    bench.process.send_signal(signal.SIGCONT)
+    top.type("q")
+    shown, status = screen.end()
+    expect(bench, "q ends top with status 0", status == "0", (status, shown))
+    now = screen.run("stty -g")
+    expect(bench, "top restores the settings of the terminal", now == settings, (settings, now))
+    for keys, status_of in (["C-c"], "130"), (["r", "C-c"], "130"):
+        Top(screen)
+        screen.tmux("send-keys", *keys)
+        shown, status = screen.end()
+        expect(bench, f"{' '.join(keys)} ends top with status 130", status == status_of, (status, shown))
+    now = screen.run("stty -g")
+    expect(bench, "Ctrl-C in top restores the settings of the terminal", now == settings, (settings, now))
+    for name in "dumb", "":
+        shown, status = screen.run(f"TERM={name} lexican top {BUS}")
+        expect(bench, f"top with TERM={name}: status 2", status == "2" and "lexican mon" in shown, (status, shown))
+    shown, status = screen.run(f"lexican top {BUS} </dev/null")
+    expect(bench, "top without terminal: status 2", status == "2" and "lexican mon" in shown, (status, shown))
+
+
 def main():
     with tempfile.TemporaryDirectory() as directory:
         bench = Bench(sys.argv[1], sys.argv[2], Path(directory))
@@ -148,7 +244,7 @@ def main():
         bench.start_node([*NODE_ARGUMENTS, "--quiet"])
         screen = Screen(bench)
         try:
-            for test in test_progress, test_interruption, test_monitor, test_question:
+            for test in test_progress, test_interruption, test_monitor, test_question, test_top:
                 test(bench, screen)
         finally:
             screen.tmux("kill-server")
