@@ -136,7 +136,7 @@ class Bench:
             self.process = subprocess.Popen([self.node, "--serve", *arguments], stdout=file, stderr=subprocess.STDOUT,
                                             env=self.environment, cwd=self.directory)
         end = time.monotonic() + MOST_SECONDS
-        while not (found := re.search(r"at (/dev/pts/\d+)\n|hub:\w+\n", log.read_text())):
+        while not (found := re.search(r"at (/dev/pts/\d+)\n|hub:[\w@]+\n", log.read_text())):
             if self.process.poll() is not None or time.monotonic() > end:
                 raise RuntimeError(f"the node does not start: {log.read_text()}")
             time.sleep(0.02)

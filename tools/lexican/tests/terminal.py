@@ -15,6 +15,8 @@ from pathlib import Path
 from pages import NODE_ARGUMENTS, Bench, copy_files
 
 BUS = "-i slcan:ttyACM0@500k"
+SLOW_BUS = "-i hub:slow"  # on which a transfer takes long enough to be seen
+SLOW_NODE = [*NODE_ARGUMENTS, "--quiet", "-i", "hub:slow@500k"]
 MOST_SECONDS = 30
 MOST_TRIES = 5  # to stop the node before a transfer has ended
 PICTURE_BYTES = 73728  # of 2200h
@@ -29,7 +31,7 @@ class Screen:
     def __init__(self, bench):
         self.socket = str(bench.directory / "tmux")
         environment = {**bench.environment, "PS1": "status $? > "}
-        environment["PATH"] = f"{bench.directory}:{environment['PATH']}"
+        environment["PATH"] = f"{bench.directory}/bin:{environment['PATH']}"
         del environment["NO_COLOR"]
         words = ["env", "-i", "TERM=screen", *(f"{name}={value}" for name, value in environment.items()), "sh"]
         self.tmux("-f", "/dev/null", "new-session", "-d", "-x", "80", "-y", "24", "-c", str(bench.directory), *words)
@@ -79,7 +81,7 @@ def expect(bench, name, is_good, shown):
 
 def test_progress(bench, screen):
     (bench.directory / "picture").write_bytes(bytes(range(256)) * (PICTURE_BYTES // 256))
-    for name, command in ("write", f"write 1 2200 --file picture {BUS}"), ("read", f"read 1 2200 -o back {BUS}"):
+    for name, command in ("write", f"write 1 2200 --file picture {SLOW_BUS}"), ("read", f"read 1 2200 -o back {SLOW_BUS}"):
         screen.start(f"lexican {command}")
         text = screen.wait(BAR.search)
         expect(bench, f"{name} shows its progress", BAR.search(text), text)
@@ -93,7 +95,7 @@ def test_progress(bench, screen):
 def test_interruption(bench, screen):
     """The node is stopped when the transfer has begun, so that this does not end before Ctrl-C is typed."""
     settings = screen.run("stty -g")
-    for name, command in ("write", f"write 1 2200 --file picture {BUS}"), ("read", f"read 1 2200 -o half {BUS}"):
+    for name, command in ("write", f"write 1 2200 --file picture {SLOW_BUS}"), ("read", f"read 1 2200 -o half {SLOW_BUS}"):
         status = "0"
         for _ in range(MOST_TRIES):
             if status != "0":
@@ -110,7 +112,7 @@ def test_interruption(bench, screen):
     bench.report("no file remains of a transfer that was interrupted", "it does" if exists else "")
     now = screen.run("stty -g")
     expect(bench, "the settings of the terminal are those before", now == settings, (settings, now))
-    shown, status = screen.run(f"lexican read 1 1008 {BUS}")
+    shown, status = screen.run(f"lexican read 1 1008 {SLOW_BUS}")
     expect(bench, "the node answers after the interrupted transfers", "Lexican demo clock" in shown, shown)
 
 
@@ -240,11 +242,15 @@ def main():
     with tempfile.TemporaryDirectory() as directory:
         bench = Bench(sys.argv[1], sys.argv[2], Path(directory))
         copy_files(bench.directory)
-        (bench.directory / "lexican").symlink_to(Path(bench.lexican).resolve())
-        bench.start_node([*NODE_ARGUMENTS, "--quiet"])
+        (bench.directory / "bin").mkdir()
+        (bench.directory / "bin/lexican").symlink_to(Path(bench.lexican).resolve())
         screen = Screen(bench)
         try:
-            for test in test_progress, test_interruption, test_monitor, test_question, test_top:
+            bench.start_node(SLOW_NODE)
+            test_progress(bench, screen)
+            test_interruption(bench, screen)
+            bench.start_node([*NODE_ARGUMENTS, "--quiet"])
+            for test in test_monitor, test_question, test_top:
                 test(bench, screen)
         finally:
             screen.tmux("kill-server")
