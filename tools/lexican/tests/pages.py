@@ -57,7 +57,7 @@ def is_log(words):
 
 def is_endless(words):
     """Returns whether a command runs until Ctrl-C."""
-    return words[1] in ("mon", "share", "top") and not is_log(words) and "--help" not in words
+    return words[1] in ("mon", "share", "sim", "top") and not is_log(words) and "--help" not in words
 
 
 def comparable(words, text):

@@ -40,6 +40,7 @@ TEST_CASE("lexican: without arguments all verbs are listed") {
         "  apply      Write the configuration of a DCF into a device\n"
         "  nmt        Change the NMT state of a device, or of all\n"
         "  lss        Give devices a node-ID or a bit rate by LSS\n"
+        "  sim        Simulate the device of a description\n"
         "  share      Hand one adapter to many programs\n"
         "  completion Print what a shell needs to complete verbs and options\n"
         "  man        Print the manual page, for man -l or man1\n"

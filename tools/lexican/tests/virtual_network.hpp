@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -33,6 +34,15 @@ class VirtualNetwork : public Host {
     wait(millisecond);
   }
 
+  /// Returns a further port of the bus.
+  Can attach() { return {&co::VirtualBusDriver, &bus_.attach({"device"})}; }
+  Timer add_timer() {
+    timers_.push_back(std::make_unique<co::VirtualTimer>(clock_));
+    return {&co::VirtualTimerDriver, timers_.back().get()};
+  }
+  /// Runs further nodes in wait(). \a process: returns the time until it has to be called again.
+  void run(std::function<Micros()> process) { others_.push_back(std::move(process)); }
+
   Can device_can() override { return master_can(); }
   Can master_can() override { return {&co::VirtualBusDriver, &master_}; }
   Timer device_timer() override { return master_timer(); }
@@ -41,6 +51,9 @@ class VirtualNetwork : public Host {
   void wait(Micros time) override {
     for (const auto& device : devices_) {
       device->node.process();
+    }
+    for (const std::function<Micros()>& process : others_) {
+      time = std::min(time, std::max(process(), Micros{1}));
     }
     const auto due = static_cast<Micros>(bus_.next_due().count());
     const Micros until_due = due > now() ? due - now() : 0;
@@ -91,6 +104,8 @@ class VirtualNetwork : public Host {
   co::VirtualBus::Port& master_ = bus_.attach({"adapter", 512, 10, false});
   co::VirtualTimer timer_{clock_};
   std::vector<std::unique_ptr<Member>> devices_;
+  std::vector<std::unique_ptr<co::VirtualTimer>> timers_;
+  std::vector<std::function<Micros()>> others_;
 };
 
 }  // namespace lexican

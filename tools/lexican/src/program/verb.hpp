@@ -48,6 +48,7 @@ Verb add_pdo(CommandLine& line);
 Verb add_read(CommandLine& line);
 Verb add_scan(CommandLine& line);
 Verb add_share(CommandLine& line);
+Verb add_sim(CommandLine& line);
 Verb add_top(CommandLine& line);
 Verb add_write(CommandLine& line);
 

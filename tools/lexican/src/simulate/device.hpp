@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file device.hpp
+/// A simulated device: a node of the stack with the dictionary of a description, whose memory can be a file.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "co_nvm_ram.h"
+#include "describe/description.hpp"
+#include "file_nvm.hpp"
+#include "host/node.hpp"
+#include "simulate/dictionary.hpp"
+
+namespace lexican::simulate {
+
+struct DeviceSetup {
+  std::uint8_t node_id = 1;  ///< 255: none, an LSS slave
+  std::uint32_t serial = 0;  ///< of 1018h:04; 0: that of the description
+  std::string storage;       ///< file of the non-volatile memory; empty: it ends with the program
+  Can can;
+  Timer timer;
+};
+
+class Device {
+ public:
+  /// \a file: the bytes of the description.
+  Device(const describe::Description& description, const std::string& file, const DeviceSetup& setup);
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  /// Starts the node: its boot-up message is sent.
+  /// \retval text  why it cannot run; empty: it runs
+  std::string start();
+  /// Returns what is wrong with the dictionary although the node runs; empty: nothing.
+  const std::string& fault() const { return fault_; }
+  Node& node() { return *node_; }
+  Dictionary& dictionary() { return dictionary_; }
+  const describe::Description& description() const { return description_; }
+
+  /// Sets an object from inside the device, as its application does: access rights and limits of the bus do not count.
+  /// A TPDO that maps it is sent, if its transmission type is event-driven.
+  /// \retval false  there is no such object, or the value has another length
+  bool set(std::uint16_t index, std::uint8_t sub_index, const Bytes& value);
+  /// Returns the value of an object; nothing: it is none, or longer than 8 bytes.
+  std::optional<Bytes> get(std::uint16_t index, std::uint8_t sub_index);
+
+  /// Reports an error by EMCY; clear() reports that it has gone. \a code: EMCY error code, which also decides the bit
+  /// of the error register (1001h). [301:7.2.7.1]
+  void raise(std::uint16_t code);
+  void clear();
+  /// Resets the node as after a power cycle: values that are not stored get their defaults.
+  void power_cycle();
+
+ private:
+  void make_node();
+
+  describe::Description description_;
+  Dictionary dictionary_;
+  DeviceSetup setup_;
+  std::vector<std::uint8_t> memory_;
+  CO_NVM_RAM ram_{};
+  co::FileNvm file_;
+  CO_EMCY_TBL emergency_{};
+  std::string fault_;
+  std::unique_ptr<Node> node_;
+};
+
+}  // namespace lexican::simulate

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: Apache-2.0
+// Devices that are simulated from their descriptions, on a virtual bus with our own client.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "client/sdo_client.hpp"
+#include "program_bench.hpp"
+#include "simulate/simulation.hpp"
+#include "virtual_network.hpp"
+
+namespace {
+
+using namespace lexican;
+using simulate::Device;
+
+const std::string clock_eds = LEXICAN_TOOL_DIR "/../../demo/clock/generated/clock.eds";
+const std::string simulated_eds = LEXICAN_TOOL_DIR "/tests/fixtures/device.eds";
+
+std::string bytes_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+describe::Description description_of(const std::string& path) {
+  std::string why;
+  const std::optional<describe::Description> description = describe::read_description(path, why);
+  REQUIRE_MESSAGE(description.has_value(), why);
+  return *description;
+}
+
+/// A simulated device as node 5, and a client.
+struct SimulatedBus {
+  explicit SimulatedBus(const std::string& path, const std::string& storage = {})
+      : device(description_of(path), bytes_of_file(path), {5, 0, storage, network.attach(), network.add_timer()}) {
+    fault = device.start();
+    if (fault.empty()) {
+      network.run([this] { return device.node().process() ? Micros{0} : device.node().due_in(); });
+      client.emplace(network, 5);
+    }
+  }
+
+  /// Returns the value of an object in words, or its abort code.
+  std::string read(std::uint16_t index, std::uint8_t sub_index = 0) {
+    const Transfer transfer = client->sdo().upload(index, sub_index, {65536, 1000, {}});
+    return transfer.done() ? device.description().show(index, sub_index, transfer.data) : transfer.outcome();
+  }
+  std::string write(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) {
+    return client->sdo().download(index, sub_index, bytes).outcome();
+  }
+
+  VirtualNetwork network;
+  Device device;
+  std::string fault;
+  std::optional<DeviceClient> client;
+};
+
+TEST_CASE("simulate: a device has the objects of its description") {
+  SimulatedBus bus(simulated_eds);
+  REQUIRE(bus.fault == "");
+  CHECK(bus.device.dictionary().left_out().empty());
+  CHECK(bus.read(0x1000) == "00020192h");
+  CHECK(bus.read(0x1018, 2) == "00000402h");
+  CHECK(bus.read(0x2001) == "-40");
+  CHECK(bus.read(0x2003) == "0.5");
+  CHECK(bus.read(0x2005) == "\"axis\"");
+  CHECK(bus.read(0x2007) == "aborted with 0601 0001h object is write-only");
+  CHECK(bus.write(0x2006, 0, {1, 0, 0, 0}) == "aborted with 0601 0002h object is read-only");
+  CHECK(bus.write(0x2005, 0, {'a', 'b'}) == "done");
+  CHECK(bus.read(0x2005) == "\"ab\"");
+  CHECK(bus.read(0x5000) == "aborted with 0602 0000h object does not exist");
+}
+
+TEST_CASE("simulate: values that the network can write are stored, and reset") {
+  const std::string storage = "/tmp/lexican-simulate-" + std::to_string(getpid());
+  {
+    SimulatedBus bus(clock_eds, storage);
+    CHECK(bus.write(0x2201, 0, {'a', 'b'}) == "done");
+    CHECK(bus.write(0x1017, 0, {0xF4, 0x01}) == "done");
+    CHECK(bus.write(0x1010, 1, {'s', 'a', 'v', 'e'}) == "done");
+    CHECK(bus.write(0x2201, 0, {'c'}) == "done");
+    CHECK(bus.write(0x2101, 0, {60, 0}) == "done");
+    CHECK(bus.read(0x2201) == "\"c\"");
+  }
+  SimulatedBus bus(clock_eds, storage);
+  CHECK(bus.read(0x2201) == "\"ab\"");
+  CHECK(bus.read(0x1017) == "500");
+  CHECK(bus.read(0x2101) == "0");
+  CHECK(bus.write(0x1011, 1, {'l', 'o', 'a', 'd'}) == "done");
+  CHECK(bus.read(0x2201) == "\"ab\"");  // until the reset
+  CONmtReset(&bus.device.node().stack().Nmt, CO_RESET_NODE);
+  CHECK(bus.read(0x2201) == "\"\"");
+  CHECK(bus.read(0x1017) == "1000");
+  CHECK(bus.write(0x2101, 0, {60, 0}) == "done");
+  CHECK(bus.write(0x1017, 0, {0xF4, 0x01}) == "done");
+  CONmtReset(&bus.device.node().stack().Nmt, CO_RESET_COM);  // keeps the values of the application
+  CHECK(bus.read(0x2101) == "60");
+  CHECK(bus.read(0x1017) == "1000");
+  std::filesystem::remove(storage);
+}
+
+TEST_CASE("simulate: values outside the limits of the description are refused") {
+  SimulatedBus bus(clock_eds);
+  CHECK(bus.write(0x2101, 0, {0x48, 0x03}) == "done");  // 840
+  CHECK(bus.write(0x2101, 0, {0x49, 0x03}) == "aborted with 0609 0031h value too high");
+  CHECK(bus.write(0x2101, 0, {0x30, 0xFD}) == "done");  // -720
+  CHECK(bus.write(0x2101, 0, {0x2F, 0xFD}) == "aborted with 0609 0032h value too low");
+  CHECK(bus.read(0x2101) == "-720");
+}
+
+TEST_CASE("simulate: the device sets its objects itself, and refuses an object") {
+  SimulatedBus bus(simulated_eds);
+  CHECK(bus.device.set(0x2006, 0, {9, 0, 0, 0}));  // read-only for the network
+  CHECK(bus.read(0x2006) == "9");
+  CHECK(bus.device.get(0x2001, 0) == Bytes{0xD8, 0xFF});
+  CHECK(!bus.device.set(0x2006, 0, {9, 0}));
+  CHECK(!bus.device.set(0x5000, 0, {9}));
+  CHECK(!bus.device.set(0x1000, 0, {9, 0, 0, 0}));
+  CHECK(bus.device.dictionary().refuse(0x2006, 0, 0x08000022));
+  CHECK(bus.read(0x2006).substr(0, 27) == "aborted with 0800 0022h dat");
+  CHECK(bus.device.dictionary().refuse(0x2006, 0, 0));
+  CHECK(bus.read(0x2006) == "9");
+}
+
+/// Objects that are not simulated: structures of the application.
+bool is_structure(std::uint16_t index) { return index >= 0x1023 && index <= 0x1027; }
+
+TEST_CASE("simulate: each readable description of the fixtures starts, and its entries can be read") {
+  std::size_t devices = 0;
+  std::size_t entries = 0;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(LEXICAN_FIXTURES)) {
+    std::string why;
+    const std::string path = file.path().string();
+    const std::optional<describe::Description> description =
+        file.is_regular_file() ? describe::read_description(path, why) : std::nullopt;
+    if (!description || description->device()->objects.empty()) {
+      continue;
+    }
+    CAPTURE(path);
+    SimulatedBus bus(path);
+    REQUIRE(bus.fault == "");
+    ++devices;
+    const bool is_complete = bus.device.dictionary().left_out().empty();
+    codict::for_each_variable(*description->device(), [&](std::uint16_t index, std::uint8_t sub_index,
+                                                          const codict::Entry& entry) {
+      const bool is_disabled = description->device()->find(index)->node->disabled->value;  // CO_disabled
+      const bool is_type = index < 0x1000;
+      if (!codict::is_readable(entry.access.value) || is_type || is_structure(index) || is_disabled || !is_complete) {
+        return;
+      }
+      const std::string text = bus.read(index, sub_index);
+      const bool is_right = text.find("aborted") != 0 || text == "aborted with 0800 0024h no data available";
+      CHECK_MESSAGE(is_right, describe::key_of(index, sub_index, true) << ' ' << text);
+      ++entries;
+    });
+  }
+  CHECK(devices > 60);
+  CHECK(entries > 500);
+}
+
+/// A virtual bus as that of a simulation.
+class VirtualGround : public simulate::Ground {
+ public:
+  explicit VirtualGround(VirtualNetwork& network) : network_(network) {}
+  Can add_can() override { return network_.attach(); }
+  Timer add_timer() override { return network_.add_timer(); }
+  Micros now() override { return network_.now(); }
+
+ private:
+  VirtualNetwork& network_;
+};
+
+/// Finds an object by its index in four hexadecimal digits.
+bool find_by_index(const std::string& word, const describe::Description&, std::uint16_t& index, std::uint8_t& sub_index,
+                   std::string& why) {
+  index = static_cast<std::uint16_t>(std::stoul(word, nullptr, 16));
+  sub_index = 0;
+  why = "";
+  return true;
+}
+
+/// Some simulated devices, a client of the first one, and all frames of the bus.
+struct SimulatedDevices {
+  SimulatedDevices(const std::string& path, std::uint8_t node, unsigned count, std::uint64_t seed = 1)
+      : simulation(ground, setup_of(path, node, count, seed), find_by_index) {
+    REQUIRE(simulation.start() == "");
+    network.run([this] { return simulation.process(); });
+    if (node <= 127) {
+      client.emplace(network, node, [this](bool is_received, const CO_IF_FRM& frame) {
+        if (is_received) {
+          frames.push_back(frame);
+        }
+      });
+    }
+  }
+  static simulate::SimulationSetup setup_of(const std::string& path, std::uint8_t node, unsigned count,
+                                            std::uint64_t seed) {
+    simulate::SimulationSetup setup;
+    setup.description = description_of(path);
+    setup.file = bytes_of_file(path);
+    setup.node_id = node;
+    setup.count = count;
+    setup.seed = seed;
+    return setup;
+  }
+  /// Executes commands, which must have no fault.
+  void run(const std::string& line) {
+    bool is_fault = false;
+    const std::string answer = simulation.execute(line, is_fault);
+    CHECK_MESSAGE(!is_fault, line << ": " << answer);
+  }
+  std::string fault_of(const std::string& line) {
+    bool is_fault = false;
+    const std::string answer = simulation.execute(line, is_fault);
+    CHECK(is_fault);
+    return answer;
+  }
+  void pass(Micros time) {
+    const Micros end = network.now() + time;
+    while (network.now() < end) {
+      client->sdo().upload(0x1001, 0, {SdoClient::small, 20, {}});
+      network.wait(millisecond);
+    }
+  }
+  std::string read(std::uint16_t index) {
+    const Transfer transfer = client->sdo().upload(index, 0, {SdoClient::small, 100, {}});
+    return transfer.done() ? simulation.device(0).description().show(index, 0, transfer.data) : transfer.outcome();
+  }
+  /// Returns the data of the frames with an identifier, "4310 09; 0000 00".
+  std::vector<Bytes> received(std::uint32_t id) const {
+    std::vector<Bytes> data;
+    for (const CO_IF_FRM& frame : frames) {
+      if (frame.Identifier == id) {
+        data.emplace_back(frame.Data, frame.Data + frame.DLC);
+      }
+    }
+    return data;
+  }
+
+  VirtualNetwork network;
+  VirtualGround ground{network};
+  simulate::Simulation simulation;
+  std::vector<CO_IF_FRM> frames;
+  std::optional<DeviceClient> client;
+};
+
+TEST_CASE("simulate: commands set values, and let them change") {
+  SimulatedDevices bus(simulated_eds, 5, 1);
+  bus.run("set 2001 77");
+  CHECK(bus.read(0x2001) == "77");
+  bus.run("set 2003 -1.5");
+  CHECK(bus.read(0x2003) == "-1.5");
+  bus.run("set 2005 \"two words\"");
+  CHECK(bus.read(0x2005) == "\"two words\"");
+  bus.run("set 2001 ramp 0 100 1s");
+  bus.pass(500 * millisecond);
+  const int half = std::stoi(bus.read(0x2001));
+  CHECK(half >= 48);
+  CHECK(half <= 53);
+  bus.pass(600 * millisecond);
+  CHECK(bus.read(0x2001) == "100");
+  bus.run("set 2001 sine -10 10 1s");
+  int low = 0;
+  int high = 0;
+  for (int n = 0; n < 50; ++n) {
+    bus.pass(20 * millisecond);
+    const int value = std::stoi(bus.read(0x2001));
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  CHECK(low <= -9);
+  CHECK(high >= 9);
+  bus.run("set 2001 1");
+  bus.pass(100 * millisecond);
+  CHECK(bus.read(0x2001) == "1");
+  bool is_fault = false;
+  CHECK(bus.simulation.execute("get 2001", is_fault) == "2001h Temperature = 1");
+  bus.run("quit");
+  CHECK(bus.simulation.has_ended());
+}
+
+TEST_CASE("simulate: commands with faults change nothing") {
+  SimulatedDevices bus(simulated_eds, 5, 1);
+  const std::pair<const char*, const char*> wrong[] = {
+      {"jump", "unknown command"},
+      {"set 2001 70000", "2001h Temperature: "},
+      {"set 2001 ramp 0 100", "needs two numbers and a time"},
+      {"set 2001 ramp 0 100 5", "needs two numbers and a time"},
+      {"set 2001 ramp 0 nan 5s", "needs two numbers and a time"},
+      {"set 2005 ramp 0 100 5s", "2005h Label is no number"},
+      {"set 1000 5", "is a constant of the device"},
+      {"emcy 12345", "emcy needs"},
+      {"emcy", "emcy needs"},
+      {"abort 1000 08000022", "1000h"},
+      {"drop 101%", "drop needs"},
+      {"drop 5", "drop needs"},
+      {"delay 5", "delay needs"},
+      {"off soon", "off needs"},
+      {"after 3 emcy 1000", "after needs"},
+      {"node 6", "no device has the node-ID 6"},
+  };
+  for (const auto& [line, message] : wrong) {
+    const std::string answer = bus.fault_of(line);
+    CHECK_MESSAGE(answer.find(message) != std::string::npos, std::string(line) << ": " << answer);
+  }
+  bus.run("# a comment");
+  bus.run("");
+  CHECK(bus.read(0x2001) == "-40");
+}
+
+TEST_CASE("simulate: errors, refusals, a loss of power and lost frames") {
+  SimulatedDevices bus(clock_eds, 5, 1);
+  bus.run("emcy 4310");
+  bus.run("after 50ms emcy 0");
+  bus.pass(100 * millisecond);
+  CHECK(bus.received(0x085) == std::vector<Bytes>{{0x10, 0x43, 0x09, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0}});
+  bus.run("abort 2101 08000022");
+  CHECK(bus.read(0x2101).find("aborted with 0800 0022h") == 0);
+  bus.run("abort 2101 off");
+  CHECK(bus.read(0x2101) == "0");
+  bus.frames.clear();
+  bus.run("set 2101 30");
+  bus.run("off 1s");
+  CHECK(bus.read(0x2101) == "no answer");
+  bus.pass(1200 * millisecond);
+  CHECK(bus.received(0x705).front() == Bytes{0});  // boot-up
+  CHECK(bus.read(0x2101) == "0");
+  bus.run("reboot");
+  bus.pass(10 * millisecond);
+  bus.run("drop 100%");
+  CHECK(bus.read(0x2101) == "no answer");
+  bus.run("drop 0%");
+  CHECK(bus.read(0x2101) == "0");
+  bus.frames.clear();
+  bus.run("double 100%");
+  CHECK(bus.read(0x2101) == "0");
+  bus.pass(5 * millisecond);
+  CHECK(bus.received(0x585).size() >= 2);
+  bus.run("double 0%");
+  bus.run("delay 50ms");
+  const Micros begin = bus.network.now();
+  CHECK(bus.read(0x2101) == "0");
+  CHECK(bus.network.now() - begin >= 50 * millisecond);
+}
+
+TEST_CASE("simulate: lost frames depend on the seed only") {
+  const auto answers = [](std::uint64_t seed) {
+    SimulatedDevices bus(clock_eds, 5, 1, seed);
+    bus.run("drop 30%");
+    std::string text;
+    for (int n = 0; n < 40; ++n) {
+      text += bus.read(0x2101) == "0" ? '1' : '0';
+    }
+    return text;
+  };
+  const std::string first = answers(7);
+  CHECK(first == answers(7));
+  CHECK(first != answers(8));
+}
+
+TEST_CASE("simulate: several devices in one process") {
+  SimulatedDevices bus(clock_eds, 10, 3);
+  bus.run("node 12");
+  bus.run("set 2101 30");
+  CHECK(bus.read(0x2101) == "0");  // of node 10
+  CHECK(bus.simulation.device(2).get(0x2101, 0) == Bytes{30, 0});
+  CHECK(bus.simulation.device(1).get(0x1018, 4) != bus.simulation.device(2).get(0x1018, 4));
+  bus.pass(1500 * millisecond);
+  for (const std::uint32_t node : {10U, 11U, 12U}) {
+    CHECK(!bus.received(0x700U + node).empty());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("lexican sim: a device of a description on a hub, with commands of a script and of a pipe") {
+  test::Bench bench;
+  const std::string script = bench.directory / "script";
+  test::write_bytes(script, "# start\nset temperature 21\nabort label 08000022\n");
+  int input[2] = {-1, -1};
+  REQUIRE(pipe(input) == 0);
+  test::Process sim(bench.line("sim", {test::eds, "--node", "5", "--script", script}), bench.environment(), input[0]);
+  close(input[0]);
+  sim.wait_for("node 5");
+  sim.wait_for(" entries, 2 TPDOs, 1 RPDOs");
+  test::check(bench.run("read", {"5", "temperature", "--eds", test::eds}), 0, "2001h Temperature = 21 (i16)\n", "");
+  CHECK(bench.run("read", {"5", "label", "--eds", test::eds}).status == 1);
+  const std::string commands = "get temperature\nset temperature\nquit\n";
+  CHECK(write(input[1], commands.data(), commands.size()) == static_cast<ssize_t>(commands.size()));
+  const test::Ran ran = sim.finish();
+  close(input[1]);
+  CHECK(ran.status == 0);
+  CHECK(test::has(ran.out, "2001h Temperature = 21\n"));
+  CHECK(test::has(ran.err, "lexican: unknown command, or wrong arguments: set\n"));
+}
+
+TEST_CASE("lexican sim: wrong use") {
+  test::Bench bench;
+  const std::string script = bench.directory / "script";
+  test::write_bytes(script, "jump\n");
+  CHECK(bench.run("sim", {"/nonexistent.eds"}).status == 2);
+  CHECK(bench.run("sim", {test::eds, "--node", "128"}).status == 2);
+  CHECK(bench.run("sim", {test::eds, "--node", "120", "--count", "9"}).status == 2);
+  CHECK(bench.run("sim", {test::eds, "--store", "/nonexistent/file"}).status == 2);
+  const test::Ran ran = bench.run("sim", {test::eds, "--script", script});
+  CHECK(ran.status == 2);
+  CHECK(test::has(ran.err, "script, line 1: jump\n"));
+}
