@@ -301,9 +301,10 @@ TEST_CASE("simulate: commands with faults change nothing") {
       {"after 3 emcy 1000", "after needs"},
       {"node 6", "no device has the node-ID 6"},
   };
-  for (const auto& [line, message] : wrong) {
+  for (const auto& row : wrong) {
+    const std::string line = row.first;
     const std::string answer = bus.fault_of(line);
-    CHECK_MESSAGE(answer.find(message) != std::string::npos, std::string(line) << ": " << answer);
+    CHECK_MESSAGE(answer.find(row.second) != std::string::npos, line << ": " << answer);
   }
   bus.run("# a comment");
   bus.run("");

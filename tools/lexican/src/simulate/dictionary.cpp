@@ -288,9 +288,9 @@ const CO_OBJ_TYPE Dictionary::String::type = {
       return of(obj).plain->Read(obj, node, buffer, size);
     },
     [](CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
-      String& string = of(obj);
-      const CO_ERR error = string.plain->Write(obj, node, buffer, size);
-      *string.length = string.string.Size;
+      const String& stored = of(obj);
+      const CO_ERR error = stored.plain->Write(obj, node, buffer, size);
+      *stored.length = stored.string.Size;
       return error;
     },
     [](CO_OBJ* obj, CO_NODE* node, std::uint32_t position) { return of(obj).plain->Reset(obj, node, position); }};
