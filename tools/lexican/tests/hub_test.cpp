@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <random>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -307,6 +308,40 @@ TEST_CASE("hub: when the server ends, clients say so, and connect to the next on
   CHECK(bus->restore());
   CHECK(bus->fault().empty());
   CHECK(bus->send(frame("123#")));
+}
+
+TEST_CASE("hub: a client of an adapter starts no hub in its place, and uses no simulated one") {
+  Runtime runtime;
+  std::string why;
+  const std::string path = hub_path("adapter", why);
+  auto server = std::make_unique<HubServer>("physical 500000");
+  REQUIRE_MESSAGE(server->open(path, why), why);
+  std::unique_ptr<Bus> bus;
+  std::thread opening([&] {
+    std::string reason;
+    bus = open_hub("adapter", reason);
+  });
+  for (unsigned n = 0; server->clients() == 0 && n < 10'000; ++n) {
+    server->process(0);
+    usleep(1000);
+  }
+  opening.join();
+  REQUIRE(bus != nullptr);
+  CHECK(bus->is_physical());
+  server.reset();
+  CHECK(read(*bus).empty());
+  CHECK(bus->fault() == "the hub has ended");
+  CHECK_FALSE(bus->restore());
+  CHECK(bus->wanted().fd == -1);
+  CHECK(bus->is_physical());
+  std::filesystem::remove(path);
+  HubServer simulated("simulated");
+  REQUIRE(simulated.open(path, why));
+  CHECK(bus->restore());
+  simulated.process(0);
+  CHECK(read(*bus).empty());
+  CHECK(bus->fault() == "the hub is a simulated one now, and was an adapter");
+  CHECK(bus->is_physical());
 }
 
 TEST_CASE("hub: another program at the socket is refused") {

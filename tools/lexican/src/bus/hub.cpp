@@ -187,7 +187,7 @@ class HubBus : public Bus {
     }
     std::string why;
     sockaddr_un address{};
-    if (starts_server_) {
+    if (starts_server_ && !was_adapter_) {
       fd_ = connect_or_start(path_, bit_rate_, why);
     } else if (address_of(path_, address, why)) {
       fd_ = connect_to(address);
@@ -226,7 +226,13 @@ class HubBus : public Bus {
     }
     text.remove_prefix(hub_greeting.size());
     is_greeted_ = true;
-    is_physical_ = text.substr(0, simulated.size()) != simulated;
+    const bool is_simulated = text.substr(0, simulated.size()) == simulated;
+    if (was_adapter_ && is_simulated) {  // commands that the user means for devices would reach nothing
+      disconnect("the hub is a simulated one now, and was an adapter");
+      return;
+    }
+    is_physical_ = !is_simulated;
+    was_adapter_ = is_physical_;
     const std::size_t space = text.find(' ');
     std::uint32_t rate = 0;
     if (space != std::string_view::npos) {
@@ -270,6 +276,7 @@ class HubBus : public Bus {
   int fd_ = -1;
   bool is_greeted_ = false;
   bool is_refused_ = false;      // the last frame to send
+  bool was_adapter_ = false;     // a greeting has said so: this program is no server for it
   bool is_physical_ = true;      // until the greeting says otherwise
   std::uint32_t required_rate_;  // bit/s; 0: any
   std::uint32_t bit_rate_;       // of the greeting, and of a server that is started
