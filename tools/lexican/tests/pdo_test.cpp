@@ -2,6 +2,12 @@
 // lexican pdo from outside. The device sends TPDO1 when its temperature (2001h) is written.
 #include <doctest/doctest.h>
 
+#include <atomic>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "bus/open.hpp"
 #include "program_bench.hpp"
 
 using namespace test;
@@ -169,7 +175,7 @@ TEST_CASE("lexican pdo watch: nothing to watch") {
   PdoBench bench;
   check(bench.pdo({"watch", "5", "offset"}), 1, "",
         "lexican: 2003h Temperature offset is in no PDO of node 5 that is on; lexican pdo show 5 has all\n");
-  CHECK(has(bench.pdo({"watch", "5", "tpdo2"}).err, "node 5 has no such PDO that is on"));
+  CHECK(has(bench.pdo({"watch", "5", "tpdo2"}).err, "node 5 has no TPDO2 that is on"));
   CHECK(bench.pdo({"watch", "5", "no such object"}).status == 2);
   CHECK(bench.pdo({"watch", "5", "--json", "--plot"}).status == 2);
   CHECK(bench.pdo({"watch", "5", "--csv", "/nonexistent/values.csv"}).status == 2);
@@ -218,6 +224,162 @@ TEST_CASE("lexican pdo send: values by name; the other objects keep theirs") {
   mon.wait_for("RPDO1");
   repeated.send(SIGINT);
   CHECK(has(repeated.finish().out, " times\n"));
+}
+
+/// An SDO server as node 7 with faults: it has objects of at most 4 bytes, and answers expedited transfers.
+class FaultyServer {
+ public:
+  struct Object {
+    std::uint32_t value;
+    std::uint8_t bytes;
+  };
+  using Key = std::uint32_t;  // index and sub-index, 180001h
+
+  explicit FaultyServer(const Bench& bench) {
+    setenv("XDG_RUNTIME_DIR", bench.directory.path().c_str(), 1);
+    std::string why;
+    bus_ = lexican::host_bus::open_bus(bench.hub(), {}, why);
+    REQUIRE_MESSAGE(bus_ != nullptr, why);
+  }
+  ~FaultyServer() { stop(); }
+  FaultyServer(const FaultyServer&) = delete;
+  FaultyServer& operator=(const FaultyServer&) = delete;
+
+  void start() {
+    thread_ = std::thread([this] {
+      while (!has_ended_) {
+        pollfd wanted = bus_->wanted();
+        poll(&wanted, 1, 10);
+        while (const auto entry = bus_->receive()) {
+          if (entry->frame.Identifier == 0x607 && entry->frame.DLC == 8) {
+            answer(entry->frame);
+          }
+        }
+      }
+    });
+  }
+  void stop() {
+    has_ended_ = true;
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+
+  std::map<Key, Object> objects;
+  std::set<Key> refuses;            ///< to be written
+  unsigned silent_from = 1000;      ///< the answer to this write, and all that follow, are lost
+  std::vector<std::string> writes;  ///< "180001=80000187"
+
+ private:
+  void answer(const CO_IF_FRM& request) {
+    const Key key = static_cast<Key>(request.Data[2]) << 16 | static_cast<Key>(request.Data[1]) << 8 | request.Data[3];
+    const bool is_write = (request.Data[0] & 0xE0U) == 0x20;
+    CO_IF_FRM frame{0x587, {0, request.Data[1], request.Data[2], request.Data[3]}, 8};
+    const auto found = objects.find(key);
+    const std::uint32_t abort = found == objects.end()                ? 0x06020000U
+                                : is_write && refuses.count(key) != 0 ? 0x08000022U
+                                                                      : 0U;
+    std::uint32_t value = 0;
+    std::memcpy(&value, request.Data + 4, sizeof value);
+    if (request.Data[0] == 0x80) {
+      return;
+    }
+    if (is_write) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%06X=%X%s", key, value, abort != 0 ? "!" : "");
+      writes.emplace_back(text);
+    }
+    if (abort != 0) {
+      frame.Data[0] = 0x80;
+      value = abort;
+    } else if (is_write) {
+      frame.Data[0] = 0x60;
+      found->second.value = value;
+      value = 0;
+    } else {
+      frame.Data[0] = static_cast<std::uint8_t>(0x43U | (4U - found->second.bytes) << 2);
+      value = found->second.value;
+    }
+    std::memcpy(frame.Data + 4, &value, sizeof value);
+    if (writes.size() < silent_from) {
+      bus_->send(frame);
+    }
+  }
+
+  std::unique_ptr<lexican::host_bus::Bus> bus_;
+  std::atomic<bool> has_ended_{false};
+  std::thread thread_;
+};
+
+/// TPDO1 that maps one object.
+std::map<FaultyServer::Key, FaultyServer::Object> first_tpdo() {
+  return {{0x101801, {1, 4}},   {0x101802, {2, 4}}, {0x101803, {3, 4}},         {0x180001, {0x187, 4}},
+          {0x180002, {255, 1}}, {0x1A0000, {1, 1}}, {0x1A0001, {0x20010010, 4}}};
+}
+
+TEST_CASE("lexican pdo map: only what was written is restored") {
+  Bench bench;
+  FaultyServer server(bench);
+  server.objects = first_tpdo();
+  server.objects[0x1A0000] = {0xFE, 1};  // multiplexed
+  server.refuses = {0x180002, 0x1A0000};
+  server.start();
+  const Ran ran = bench.run("pdo", {"map", "7", "tpdo1", "--type", "1"});
+  server.stop();
+  CHECK(ran.status == 1);
+  CHECK(has(ran.err, "lexican: TPDO1 is as it was before\n"));
+  CHECK(server.writes == Words{"180001=80000187", "180002=1!", "180001=187"});
+}
+
+TEST_CASE("lexican pdo map: a lost answer, and what the PDO was before") {
+  for (const unsigned silent_from : {1U, 3U, 5U, 7U}) {
+    CAPTURE(silent_from);
+    Bench bench;
+    FaultyServer server(bench);
+    server.objects = first_tpdo();
+    server.silent_from = silent_from;
+    server.start();
+    const Ran ran = bench.run("pdo", {"map", "7", "tpdo1", "2002/32", "--timeout", "100"});
+    CHECK(ran.status == (silent_from < 6 ? 3 : 0));
+    CHECK(has(ran.err, "Before: lexican pdo map 7 TPDO1 2001:0/16\n") == (silent_from < 6));
+  }
+}
+
+TEST_CASE("lexican pdo map: a CAN identifier with another use, and a mapping that has less than it says") {
+  PdoBench bench;
+  const std::pair<const char*, const char*> others[] = {{"80", "080h is for SYNC"},
+                                                        {"85", "085h is for EMCY"},
+                                                        {"601", "601h is for SDO"},
+                                                        {"705", "705h is for error control"},
+                                                        {"185", "TPDO1 has 185h"}};
+  for (const auto& [id, use] : others) {
+    check(bench.pdo({"map", "5", "tpdo2", "2001", "--cob-id", id}), 2, "",
+          "lexican: " + std::string(use) + "; --force uses it all the same\n");
+  }
+  check(bench.pdo({"show", "5", "tpdo2"}), 0, third_off, "");
+  CHECK(bench.pdo({"map", "5", "tpdo2", "2001", "--cob-id", "185", "--force"}).status == 0);
+  CHECK(bench.pdo({"map", "5", "tpdo2", "--type", "1.6"}).status == 2);
+  CHECK(bench.pdo({"show", "5", "--off"}).status == 2);
+  FaultyServer server(bench);
+  server.objects = first_tpdo();
+  server.objects[0x1A0000] = {4, 1};
+  server.start();
+  const Ran ran = bench.run("pdo", {"show", "7", "tpdo1"});
+  check(ran, 1, "", "lexican: 1A00h:00 says 4 objects, but there is no 1A00h:02\n");
+}
+
+TEST_CASE("lexican pdo send: a device that is not operational, and an object of no bits") {
+  PdoBench bench;
+  CHECK(bench.run("nmt", {"preop", "5"}).status == 0);
+  check(bench.pdo({"send", "5", "output=7"}), 1, "",
+        "lexican: node 5 is pre-operational and receives no PDOs: lexican nmt start 5\n");
+  CHECK(bench.pdo({"send", "5", "output=7", "2000=8"}).status == 2);
+  FaultyServer server(bench);
+  server.objects = {{0x101801, {1, 4}},     {0x101802, {2, 4}}, {0x101803, {3, 4}},         {0x101700, {0, 2}},
+                    {0x140001, {0x207, 4}}, {0x160000, {1, 1}}, {0x160001, {0x20000000, 4}}};
+  server.start();
+  check(bench.run("pdo", {"send", "7", "rpdo1", "2000=1"}), 1, "",
+        "lexican: RPDO1 maps 2000h:00 with a length of 0 bits\n");
 }
 
 }  // namespace

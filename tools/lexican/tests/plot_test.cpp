@@ -32,6 +32,19 @@ TEST_CASE("plot: the range of equal values is not empty") {
   CHECK(range.high > 5);
 }
 
+TEST_CASE("plot: a range that is wider than a number, and values that are infinite") {
+  const double most = std::numeric_limits<double>::max();
+  const std::vector<Point> points = {{0, -most}, {1, std::numeric_limits<double>::infinity()}, {2, most}};
+  const Range range = range_of(points);
+  CHECK(range.low == -most);
+  CHECK(range.high == most);
+  CHECK(braille(points, range, 1, 1) == Lines{"⣸"});
+  const std::string svg = to_svg("node 5", {{"speed", points}});
+  CHECK(svg.find("M90.00 260.00H940.00V40.00") != std::string::npos);
+  CHECK(svg.find("nan") == std::string::npos);
+  CHECK(svg.find("inf") == std::string::npos);
+}
+
 TEST_CASE("plot: an SVG has a diagram for each curve") {
   const std::string svg = to_svg("node 5", {{"speed <rpm>\x1b", {{0, 0}, {1, 10}}}, {"none", {}}});
   CHECK(svg.find("<title>node 5</title>") != std::string::npos);

@@ -23,7 +23,8 @@ std::string utf8(unsigned code) {
 
 /// Returns the cell of a value among a number of cells; values at and beyond the borders are in the outer cells.
 unsigned cell_of(double value, double low, double high, unsigned cells) {
-  const double part = high > low ? (value - low) / (high - low) : 0.5;
+  // Halves: the difference of two numbers may be beyond the range of a number.
+  const double part = high > low ? (value / 2 - low / 2) / (high / 2 - low / 2) : 0.5;
   return static_cast<unsigned>(std::clamp(part * cells, 0.0, static_cast<double>(cells - 1)));
 }
 
@@ -73,7 +74,7 @@ std::string xml_text(const std::string& text) {
 
 /// Returns the distance of the lines of a grid: 1, 2 or 5 times a power of ten, for at most six lines.
 double step_of(double low, double high) {
-  const double least = (high - low) / 6;
+  const double least = high / 6 - low / 6;
   const double power = std::pow(10.0, std::floor(std::log10(least)));
   for (const double factor : {1.0, 2.0, 5.0}) {
     if (factor * power >= least) {
@@ -108,7 +109,9 @@ std::string svg_diagram(const Curve& curve, const Range& time, int y) {
   const auto x_of = [&](double t) {
     return left + (t - range.from) / (range.to - range.from) * (width - left - right);
   };
-  const auto y_of = [&](double v) { return y + diagram - (v - range.low) / (range.high - range.low) * diagram; };
+  const auto y_of = [&](double v) {
+    return y + diagram - (v / 2 - range.low / 2) / (range.high / 2 - range.low / 2) * diagram;
+  };
   std::string text =
       fmt::format("<text x='{}' y='{}' font-weight='bold'>{}</text>\n", left, y - 8, xml_text(curve.name));
   for (const double value : grid_of(range.low, range.high)) {
@@ -123,6 +126,9 @@ std::string svg_diagram(const Curve& curve, const Range& time, int y) {
   }
   std::string path;
   for (const Point& point : curve.points) {
+    if (!std::isfinite(point.value)) {
+      continue;
+    }
     path += path.empty() ? fmt::format("M{:.2f} {:.2f}", x_of(point.time), y_of(point.value))
                          : fmt::format("H{:.2f}V{:.2f}", x_of(point.time), y_of(point.value));
   }
@@ -135,10 +141,14 @@ Range range_of(const std::vector<Point>& points) {
   if (points.empty()) {
     return {};
   }
-  Range range{points.front().time, points.back().time, points.front().value, points.front().value};
+  Range range{points.front().time, points.back().time, 0, 0};
+  bool has_value = false;
   for (const Point& point : points) {
-    range.low = std::min(range.low, point.value);
-    range.high = std::max(range.high, point.value);
+    if (std::isfinite(point.value)) {
+      range.low = has_value ? std::min(range.low, point.value) : point.value;
+      range.high = has_value ? std::max(range.high, point.value) : point.value;
+      has_value = true;
+    }
   }
   if (range.low == range.high) {
     const double margin = std::max(1.0, std::abs(range.low) / 10);

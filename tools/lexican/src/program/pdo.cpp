@@ -90,7 +90,38 @@ int run_with_device(const PdoOptions& options, std::uint8_t node, describe::Netw
                                     : run_send(options, reader, words);
 }
 
+/// Prints an option that does not belong to the command.
+/// \retval false  there is one
+bool has_own_options(const PdoOptions& options) {
+  struct Given {
+    bool is_given;
+    const char* option;
+    const char* command;
+  };
+  const Given all[] = {{!options.cob_id.empty(), "--cob-id", "map"},
+                       {options.type.has_value(), "--type", "map"},
+                       {options.inhibit_time.has_value(), "--inhibit", "map"},
+                       {options.event_timer.has_value(), "--event", "map"},
+                       {options.is_off, "--off", "map"},
+                       {options.has_plot, "--plot", "watch"},
+                       {!options.csv.empty(), "--csv", "watch"},
+                       {!options.svg.empty(), "--svg", "watch"},
+                       {options.duration != 0, "--for", "watch"},
+                       {options.period != 0, "--every", "send"},
+                       {options.sends_sync, "--sync", "send"}};
+  for (const auto& [is_given, option, command] : all) {
+    if (is_given && options.command != command) {
+      print_message(fmt::format("{} is an option of pdo {}, not of pdo {}", option, command, options.command));
+      return false;
+    }
+  }
+  return true;
+}
+
 int run_pdo(PdoOptions& options) {
+  if (!has_own_options(options)) {
+    return usage;
+  }
   std::vector<std::string> words = options.words;
   const bool has_node = !options.common.node.empty();
   if (!has_node && words.empty()) {
@@ -216,7 +247,13 @@ int PdoReader::read_mapping(DevicePdo& pdo) {
   pdo.is_multiplexed = count > most_mapped;
   for (std::uint32_t n = 1; n <= count && !pdo.is_multiplexed; ++n) {
     std::uint32_t value = 0;
-    if (read_entry(pdo.name.mapping(), static_cast<std::uint8_t>(n), value) == Entry::failed) {
+    const Entry entry = read_entry(pdo.name.mapping(), static_cast<std::uint8_t>(n), value);
+    if (entry == Entry::absent) {
+      print_message(fmt::format("{:04X}h:00 says {} objects, but there is no {:04X}h:{:02X}", pdo.name.mapping(), count,
+                                pdo.name.mapping(), n));
+      return refused;
+    }
+    if (entry == Entry::failed) {
       return status_;
     }
     pdo.mapped.push_back(
@@ -333,7 +370,8 @@ Verb add_pdo(CommandLine& line) {
   arguments.add_option("--every", options->period, "send: repeat it with this period in ms until Ctrl-C")
       .in_hidden_range(1, 3'600'000);
   arguments.add_flag("--sync", options->sends_sync, "send: a SYNC behind it");
-  arguments.add_flag("--force", options->is_forced, "send: also beyond the limits of the description");
+  arguments.add_flag("--force", options->is_forced,
+                     "send: also beyond the limits; map: also a CAN identifier with another use");
   add_bus_options(arguments, options->common);
   add_eds_option(arguments, options->common);
   add_timeout_option(arguments, options->common, 1000);

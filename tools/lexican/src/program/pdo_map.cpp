@@ -69,7 +69,8 @@ bool number_of_option(const std::optional<std::string>& text, const char* name, 
   const char* const end = text->data() + text->size();
   const auto [next, error] = std::from_chars(text->data(), end, value);
   const double scaled = std::round(value * factor);
-  if (error != std::errc() || next != end || !(scaled >= 0 && scaled <= most)) {
+  const bool is_whole = std::abs(value * factor - scaled) < 1e-6;
+  if (error != std::errc() || next != end || !is_whole || !(scaled >= 0 && scaled <= most)) {
     print_message(fmt::format("{} '{}' is no number from 0 to {:g}", name, *text, most / factor));
     return false;
   }
@@ -79,72 +80,100 @@ bool number_of_option(const std::optional<std::string>& text, const char* name, 
 
 std::string summary_of_step(const PdoStep& step) { return fmt::format("{:0{}X}h", step.value, 2 * step.bytes); }
 
-/// Changes one PDO, and restores it if the device refuses a part.
+/// Changes one PDO, and restores what it has written if the device refuses a part.
 class PdoChange {
  public:
   PdoChange(PdoReader& reader, const DevicePdo& before, const DevicePdo& wanted)
       : reader_(reader), before_(before), wanted_(wanted) {}
 
   int run() {
-    const std::vector<PdoStep> steps = steps_to(wanted_, before_);
-    for (const PdoStep& step : steps) {
+    for (const PdoStep& step : steps()) {
       const Transfer transfer = write(step);
-      if (transfer.done()) {
-        ++done_;
-        continue;
-      }
-      const std::string object = reader_.description().object(step.key.first, step.key.second);
       const bool is_refusal =
           transfer.fault.empty() && transfer.code != CO_SDO_ERR_TIMEOUT && !reader_.session().is_interrupted();
+      if (transfer.done() || !is_refusal) {
+        written_.push_back(step);  // without an answer, too: the device may have it
+      }
+      if (transfer.done()) {
+        continue;
+      }
       const int status = reader_.report(step.key, transfer);
       if (is_refusal) {
         print_message(fmt::format("the value that it has refused is {}", summary_of_step(step)));
       }
-      if (done_ > 0) {
-        print_message(is_refusal && restore() ? before_.name.text() + " is as it was before"
-                                              : before_.name.text() + " may be switched off; lexican pdo show has it");
+      if (!written_.empty()) {
+        const bool is_restored = is_refusal && restore();
+        print_message(is_restored ? before_.name.text() + " is as it was before" : remainder());
       }
       return status;
     }
     return ok;
   }
 
- private:
-  /// Returns the values that lead from a PDO to another one: it is switched off while they change.
-  std::vector<PdoStep> steps_to(const DevicePdo& to, const DevicePdo& from) const {
-    const std::uint16_t communication = to.name.communication();
-    const std::uint16_t mapping = to.name.mapping();
-    std::vector<PdoStep> steps;
-    if (from.is_valid()) {
-      steps.push_back({{communication, 1}, from.cob_id | switched_off, 4});
+  /// Returns the command that gives the PDO what it had before.
+  std::string remainder() const {
+    std::string command = fmt::format("lexican pdo map {} {}", reader_.node(), before_.name.text());
+    for (const auto& [key, bits] : before_.mapped) {
+      command += fmt::format(" {:X}:{:X}/{}", key.first, key.second, bits);
     }
+    const auto add = [&](const char* option, const std::optional<std::uint32_t>& old,
+                         const std::optional<std::uint32_t>& value, double factor) {
+      command += old && value != old ? fmt::format(" {} {:g}", option, *old / factor) : "";
+    };
+    add("--type", before_.type, wanted_.type, 1);
+    add("--inhibit", before_.inhibit_time, wanted_.inhibit_time, 10);
+    add("--event", before_.event_timer, wanted_.event_timer, 1);
+    command += before_.frame().Identifier != wanted_.frame().Identifier
+                   ? fmt::format(" --cob-id {:X}", before_.frame().Identifier & CO_IF_FRM_ID)
+                   : "";
+    return fmt::format(
+        "a part of {0} may have changed, and it may be switched off; lexican pdo show {1} {0} has it. Before: {2}{3}",
+        before_.name.text(), reader_.node(), command, before_.is_valid() ? "" : " --off");
+  }
+
+ private:
+  /// Returns the values to write: the PDO is switched off while they change.
+  std::vector<PdoStep> steps() const {
+    const std::uint16_t communication = wanted_.name.communication();
+    std::vector<PdoStep> steps;
     const auto add = [&](std::uint8_t sub_index, unsigned bytes, const std::optional<std::uint32_t>& value,
                          const std::optional<std::uint32_t>& old) {
       if (value && value != old) {
         steps.push_back({{communication, sub_index}, *value, bytes});
       }
     };
-    add(2, 1, to.type, from.type);
-    add(3, 2, to.inhibit_time, from.inhibit_time);
-    add(5, 2, to.event_timer, from.event_timer);
-    if (!is_same_mapping(to, from)) {
-      steps.push_back({{mapping, 0}, 0, 1});
-      for (std::size_t n = 0; n < to.mapped.size(); ++n) {
-        const auto [key, bits] = to.mapped[n];
-        const std::uint32_t value =
-            static_cast<std::uint32_t>(key.first) << 16 | static_cast<std::uint32_t>(key.second) << 8 | bits;
-        steps.push_back({{mapping, static_cast<std::uint8_t>(n + 1)}, value, 4});
-      }
-      steps.push_back({{mapping, 0}, static_cast<std::uint32_t>(to.mapped.size()), 1});
+    add(2, 1, wanted_.type, before_.type);
+    add(3, 2, wanted_.inhibit_time, before_.inhibit_time);
+    add(5, 2, wanted_.event_timer, before_.event_timer);
+    if (!is_same_mapping()) {
+      const std::vector<PdoStep> mapping = mapping_of(wanted_);
+      steps.insert(steps.end(), mapping.begin(), mapping.end());
     }
-    if (!steps.empty() || to.cob_id != from.cob_id) {
-      steps.push_back({{communication, 1}, to.cob_id, 4});
+    const bool is_changed = !steps.empty() || wanted_.cob_id != before_.cob_id;
+    if (is_changed && before_.is_valid()) {
+      steps.insert(steps.begin(), {{communication, 1}, before_.cob_id | switched_off, 4});
+    }
+    if (is_changed) {
+      steps.push_back({{communication, 1}, wanted_.cob_id, 4});
     }
     return steps;
   }
 
-  static bool is_same_mapping(const DevicePdo& one, const DevicePdo& other) {
-    return std::equal(one.mapped.begin(), one.mapped.end(), other.mapped.begin(), other.mapped.end(),
+  static std::vector<PdoStep> mapping_of(const DevicePdo& pdo) {
+    const std::uint16_t mapping = pdo.name.mapping();
+    std::vector<PdoStep> steps = {{{mapping, 0}, 0, 1}};
+    for (std::size_t n = 0; n < pdo.mapped.size(); ++n) {
+      const auto [key, bits] = pdo.mapped[n];
+      const std::uint32_t value =
+          static_cast<std::uint32_t>(key.first) << 16 | static_cast<std::uint32_t>(key.second) << 8 | bits;
+      steps.push_back({{mapping, static_cast<std::uint8_t>(n + 1)}, value, 4});
+    }
+    steps.push_back({{mapping, 0}, static_cast<std::uint32_t>(pdo.mapped.size()), 1});
+    return steps;
+  }
+
+  bool is_same_mapping() const {
+    return std::equal(wanted_.mapped.begin(), wanted_.mapped.end(), before_.mapped.begin(), before_.mapped.end(),
                       [](const MappedEntry& a, const MappedEntry& b) { return a.key == b.key && a.bits == b.bits; });
   }
 
@@ -157,13 +186,35 @@ class PdoChange {
                                             {SdoClient::small, reader_.timeout(), {}});
   }
 
+  bool was_written(std::uint16_t index) const {
+    return std::any_of(written_.begin(), written_.end(), [=](const PdoStep& step) { return step.key.first == index; });
+  }
+
+  /// Writes again what the device had, of those objects that were written.
   /// \retval false  the device has refused a part of it
   bool restore() {
-    DevicePdo half = wanted_;  // switched off; all that differs is written again
-    half.cob_id = before_.cob_id | switched_off;
-    half.mapped.push_back({});
+    const std::uint16_t communication = before_.name.communication();
+    std::vector<PdoStep> steps;
+    const std::pair<std::uint8_t, const std::optional<std::uint32_t>&> parameters[] = {
+        {std::uint8_t{2}, before_.type},
+        {std::uint8_t{3}, before_.inhibit_time},
+        {std::uint8_t{5}, before_.event_timer}};
+    for (const PdoStep& step : written_) {
+      for (const auto& [sub_index, value] : parameters) {
+        if (step.key == describe::EntryKey{communication, sub_index} && value) {
+          steps.push_back({step.key, *value, step.bytes});
+        }
+      }
+    }
+    if (was_written(before_.name.mapping())) {
+      const std::vector<PdoStep> mapping = mapping_of(before_);
+      steps.insert(steps.end(), mapping.begin(), mapping.end());
+    }
+    if (was_written(communication) || was_written(before_.name.mapping())) {
+      steps.push_back({{communication, 1}, before_.cob_id, 4});
+    }
     bool is_good = true;
-    for (const PdoStep& step : steps_to(before_, half)) {
+    for (const PdoStep& step : steps) {
       is_good = write(step).done() && is_good;
     }
     return is_good;
@@ -172,8 +223,33 @@ class PdoChange {
   PdoReader& reader_;
   const DevicePdo& before_;
   const DevicePdo& wanted_;
-  std::size_t done_ = 0;
+  std::vector<PdoStep> written_;
 };
+
+/// Returns what a CAN identifier is for if CiA 301 does not allow it for PDOs, or if another PDO of the device has it;
+/// empty: neither. [301:7.3.5]
+std::string other_use(std::uint32_t id, const std::vector<DevicePdo>& others, const DevicePdo& pdo) {
+  struct Use {
+    std::uint32_t first;
+    std::uint32_t last;
+    const char* name;
+  };
+  constexpr Use uses[] = {{0x001, 0x07F, "reserved"}, {0x080, 0x080, "SYNC"},     {0x081, 0x0FF, "EMCY"},
+                          {0x100, 0x100, "TIME"},     {0x101, 0x180, "reserved"}, {0x580, 0x5FF, "SDO"},
+                          {0x600, 0x67F, "SDO"},      {0x6E0, 0x6FF, "reserved"}, {0x700, 0x77F, "error control"},
+                          {0x780, 0x7FF, "reserved"}};
+  for (const Use& use : uses) {
+    if (id >= use.first && id <= use.last) {
+      return fmt::format("{:03X}h is for {}", id, use.name);
+    }
+  }
+  for (const DevicePdo& other : others) {
+    if (!(other.name == pdo.name) && other.is_valid() && other.frame().Identifier == pdo.frame().Identifier) {
+      return fmt::format("{} has {}", other.name.text(), other.identifier());
+    }
+  }
+  return {};
+}
 
 /// Sets what the command line gives.
 /// \retval false  the reason is printed
@@ -243,14 +319,28 @@ int run_map(const PdoOptions& options, PdoReader& reader, const std::vector<std:
   if (!set_wanted(options, words, reader.description(), wanted)) {
     return usage;
   }
-  status = PdoChange(reader, *before, wanted).run();
+  if (!options.cob_id.empty() && !options.is_forced) {
+    std::vector<DevicePdo> pdos;
+    status = reader.read_all(pdos);
+    if (status != ok) {
+      return status;
+    }
+    const std::string use = other_use(wanted.frame().Identifier, pdos, wanted);
+    if (!use.empty()) {
+      print_message(use + "; --force uses it all the same");
+      return usage;
+    }
+  }
+  PdoChange change(reader, *before, wanted);
+  status = change.run();
   if (status != ok) {
     return status;
   }
   std::optional<DevicePdo> after;
   status = reader.read(*name, after);
   if (status != ok || !after) {
-    return status;
+    print_message("the device has accepted all values, but they could not be read back; " + change.remainder());
+    return status != ok ? status : refused;
   }
   options.common.is_json ? print_json(*after, reader.node(), reader.description())
                          : print(text_of(*after, reader.description()));

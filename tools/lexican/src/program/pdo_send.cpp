@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "program/command.hpp"
 #include "program/pdo.hpp"
 
 namespace lexican::program {
@@ -53,6 +54,12 @@ class PdoSender {
       if (!value) {
         return usage;
       }
+      const bool is_twice =
+          std::any_of(given_.begin(), given_.end(), [&](const GivenValue& other) { return other.key == value->key; });
+      if (is_twice) {
+        print_message(words[n] + ": the object has a value already");
+        return usage;
+      }
       given_.push_back(*value);
     }
     if (given_.empty()) {
@@ -66,10 +73,14 @@ class PdoSender {
   int send() {
     host_bus::Bus& bus = reader_.session().bus();
     BusHost& host = reader_.session().host();
-    if (reader_.session().state() && *reader_.session().state() != operational) {
+    const std::optional<std::uint8_t> state = device_state();
+    if (state && *state != operational) {
       print_message(fmt::format("node {0} is {1} and receives no PDOs: lexican nmt start {0}", reader_.node(),
-                                state_text(*reader_.session().state())));
+                                state_text(*state)));
       return refused;
+    }
+    if (!state) {
+      print_note(fmt::format("node {} sends no heartbeat: it has to be operational to receive PDOs", reader_.node()));
     }
     const bool needs_sync = pdo_.type.value_or(255) <= 240;
     if (needs_sync && !options_.sends_sync) {
@@ -84,7 +95,7 @@ class PdoSender {
         return report_bus(bus);
       }
       ++sent_;
-      due += period;
+      due = std::max(due + period, host.now());  // what is late is not made up for
       while (period != 0 && !host.interrupted() && host.now() < due) {
         host.wait(due - host.now());
         while (bus.receive()) {
@@ -102,6 +113,22 @@ class PdoSender {
 
  private:
   static constexpr std::uint8_t operational = 0x05;
+
+  /// Returns the NMT state of the device by its heartbeat, for which it waits; nothing: it sends none.
+  std::optional<std::uint8_t> device_state() {
+    Session& session = reader_.session();
+    constexpr Micros longest = 5 * second;
+    if (!session.state()) {
+      const Transfer transfer = session.sdo().upload(0x1017, 0, {SdoClient::small, reader_.timeout(), {}});
+      const Micros period = transfer.done() ? number_of(transfer.data) * millisecond : 0;
+      const std::uint8_t heard =
+          period != 0 && !session.state()
+              ? wait_for_state(session, reader_.node(), operational, std::min(period + period / 2, longest))
+              : no_state;
+      return heard != no_state ? std::optional(heard) : session.state();
+    }
+    return session.state();
+  }
 
   bool maps_all(const DevicePdo& pdo) const {
     return std::all_of(given_.begin(), given_.end(), [&](const GivenValue& value) {
@@ -161,6 +188,11 @@ class PdoSender {
     unsigned position = 0;
     for (const MappedEntry& entry : pdo_.mapped) {
       Bytes bytes;
+      if (entry.bits == 0) {
+        print_message(fmt::format("{} maps {} with a length of 0 bits", pdo_.name.text(),
+                                  reader_.description().object(entry.key.first, entry.key.second)));
+        return refused;
+      }
       const int status = entry.is_dummy() ? ok : value_of(entry, bytes);
       if (status != ok) {
         return status;

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +16,7 @@
 #include "model/pdo.hpp"
 #include "program/identity.hpp"
 #include "program/pdo.hpp"
+#include "program/printable.hpp"
 #include "text/file.hpp"
 
 namespace lexican::program {
@@ -45,7 +48,7 @@ struct WatchedObject {
 
   void add(double time, const PdoValue& value) {
     text = value.text;
-    if (!value.number) {
+    if (!value.number || !std::isfinite(*value.number)) {
       return;
     }
     low = values == 0 ? *value.number : std::min(low, *value.number);
@@ -153,8 +156,14 @@ class Watch {
   Watch(const PdoOptions& options, std::uint8_t node, describe::Network& network)
       : options_(options), node_(node), network_(network), monitor_(network, [](const describe::Event&) {}) {}
 
+  /// Opens the files that are written.
   /// \retval false  the reason is printed
-  bool open_csv() {
+  bool open_files() {
+    const std::string directory = std::filesystem::path(options_.svg).parent_path().string();
+    if (!options_.svg.empty() && access(directory.empty() ? "." : directory.c_str(), W_OK) != 0) {
+      print_message(options_.svg + " cannot be written");
+      return false;
+    }
     if (options_.csv.empty() || options_.csv == "-") {
       return true;
     }
@@ -164,6 +173,8 @@ class Watch {
     }
     return csv_.good();
   }
+  /// Returns true if the rest cannot be written.
+  bool has_failed() const { return !csv_.good(); }
 
   /// Chooses PDOs and objects. \a words: those of the command line.
   /// \retval false  the reason is printed
@@ -193,6 +204,13 @@ class Watch {
         }
       }
     }
+    for (const PdoName& name : pdos_) {
+      if (std::none_of(pdos.begin(), pdos.end(),
+                       [&](const DevicePdo& pdo) { return pdo.name == name && pdo.is_valid(); })) {
+        print_message(fmt::format("node {0} has no {1} that is on; lexican pdo show {0} has all", node_, name.text()));
+        return false;
+      }
+    }
     for (const EntryKey& key : keys_) {
       if (find(key) == objects_.end()) {
         print_message(fmt::format("{} is in no PDO of node {} that is on; lexican pdo show {} has all",
@@ -201,7 +219,7 @@ class Watch {
       }
     }
     if (objects_.empty()) {
-      print_message(fmt::format("node {0} has no such PDO that is on; lexican pdo show {0} has all", node_));
+      print_message(fmt::format("node {0} has no PDO that is on; lexican pdo show {0} has all", node_));
       return false;
     }
     return true;
@@ -228,7 +246,7 @@ class Watch {
     last_ = std::max(last_, entry.time);
     monitor_.process(entry);
     if (entry.frame.Identifier == 0x700U + node_ && entry.frame.DLC == 1) {
-      state_ = entry.frame.Data[0] & 0x7FU;
+      note_state(entry.frame.Data[0] & 0x7FU);
     }
     const std::optional<PdoContent> content = monitor_.values_of(entry.frame, node_);
     if (content) {
@@ -239,6 +257,7 @@ class Watch {
   /// Draws the curves, which move on with the time. \a now: as the times of the frames.
   void redraw(Micros now) {
     last_ = std::max(last_, now);
+    csv_.flush();
     if (options_.has_plot && screen_.is_terminal() && received_ != 0 && now - drawn_ >= redraw_interval) {
       screen_.draw(objects_, seconds(last_));
       drawn_ = now;
@@ -276,6 +295,16 @@ class Watch {
   }
 
  private:
+  /// Says when a device that has sent PDOs stops doing so.
+  void note_state(std::uint8_t state) {
+    const bool has_left = received_ != 0 && state != 0x05 && state_ != state;
+    state_ = state;
+    if (has_left) {
+      print_note(fmt::format("node {0} {1} and sends no PDOs: lexican nmt start {0}", node_,
+                             state == 0 ? "has booted" : "is " + state_text(state)));
+    }
+  }
+
   double seconds(Micros time) const { return time < begin_ ? 0.0 : static_cast<double>(time - begin_) / 1e6; }
 
   bool is_wanted(const PdoName& pdo, const EntryKey& key) const {
@@ -359,7 +388,7 @@ class Watch {
       csv_columns_ = objects_.size();
       text = "time";
       for (const WatchedObject& object : objects_) {
-        text += ',' + csv_field(object.name);
+        text += ',' + csv_field(printable(object.name));
       }
       text += '\n';
     }
@@ -370,7 +399,7 @@ class Watch {
       });
       text += ',';
       if (found != values.end()) {
-        text += (*found)->number ? fmt::format("{:.12g}", *(*found)->number) : csv_field((*found)->text);
+        text += (*found)->number ? fmt::format("{:.12g}", *(*found)->number) : csv_field(printable((*found)->text));
       }
     }
     text += '\n';
@@ -424,7 +453,7 @@ class Watch {
 int watch_log(Watch& watch, const Common& common, const std::vector<std::string>& words) {
   int status = ok;
   const std::unique_ptr<host_bus::Bus> bus = open_bus(common, true, status);
-  if (bus == nullptr || !watch.select(words)) {
+  if (bus == nullptr || !watch.select(words) || !watch.open_files()) {
     return bus == nullptr ? status : usage;
   }
   const Interruption interruption;
@@ -467,9 +496,13 @@ int watch_bus(Watch& watch, const PdoOptions& options, std::uint8_t node, descri
   if (status != ok || !watch.expect(pdos)) {
     return status != ok ? status : refused;
   }
+  if (!watch.open_files()) {
+    return usage;
+  }
   const Micros begin = session.host().now();
   const Micros duration = options.duration * second;
-  while (!session.host().interrupted() && (duration == 0 || session.host().now() - begin < duration)) {
+  while (!session.host().interrupted() && !watch.has_failed() &&
+         (duration == 0 || session.host().now() - begin < duration)) {
     while (const std::optional<host_bus::Entry> entry = session.bus().receive()) {
       watch.process(*entry);
     }
@@ -478,6 +511,9 @@ int watch_bus(Watch& watch, const PdoOptions& options, std::uint8_t node, descri
     session.host().wait(50 * millisecond);
   }
   status = watch.finish();
+  if (session.bus().lost() != 0) {
+    print_note(fmt::format("{} frames were lost: this program did not read them in time", session.bus().lost()));
+  }
   if (!session.bus().fault().empty()) {
     print_message(session.bus().fault());
     return bus_fault;
@@ -495,9 +531,6 @@ int run_watch(const PdoOptions& options, std::uint8_t node, describe::Network& n
     return usage;
   }
   Watch watch(options, node, network);
-  if (!watch.open_csv()) {
-    return usage;
-  }
   const char* const usual = std::getenv("LEXICAN_BUS");
   const std::string name = !options.common.bus.empty() ? options.common.bus : usual != nullptr ? usual : "";
   return name.compare(0, 7, "replay:") == 0 ? watch_log(watch, options.common, words)
