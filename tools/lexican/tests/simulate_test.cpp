@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "client/sdo_client.hpp"
+#include "frame_bits.hpp"
 #include "program_bench.hpp"
 #include "simulate/simulation.hpp"
 #include "virtual_network.hpp"
@@ -375,6 +377,38 @@ TEST_CASE("simulate: several devices in one process") {
 }
 
 }  // namespace
+
+TEST_CASE("simulate: twenty devices at 60 % load of a wire of 500 kbit/s lose no frame") {
+  constexpr unsigned devices = 20;
+  constexpr std::uint8_t first = 10;
+  SimulatedDevices bus(LEXICAN_FIXTURES "/network/io.eds", first, devices);
+  for (std::size_t n = 0; n < devices; ++n) {
+    REQUIRE(bus.simulation.device(n).set(0x1800, 5, {4, 0}));  // event timer, ms
+  }
+  std::map<std::uint32_t, unsigned> sent;
+  std::uint64_t bits = 0;
+  bus.network.bus().set_trace([&](const co::VirtualBus::Traffic& traffic) {
+    ++sent[traffic.frame.Identifier];
+    bits += co::frame_bits(traffic.frame) + co::intermission_bits;
+  });
+  bus.network.bus().inject({0, {1, 0}, 2});  // NMT start
+  const Micros begin = bus.network.now();
+  constexpr Micros time = 2 * second;
+  while (bus.network.now() - begin < time) {
+    bus.network.wait(time - (bus.network.now() - begin));
+  }
+  bus.network.bus().set_trace({});
+  const double load = static_cast<double>(bits) / (VirtualNetwork::bit_rate * 2.0);
+  CHECK(load > 0.55);
+  CHECK(load < 0.70);
+  for (unsigned n = 0; n < devices; ++n) {
+    const unsigned frames = sent[0x180U + first + n];
+    CAPTURE(n);
+    CHECK(frames >= 499);
+    CHECK(frames <= 501);
+    CHECK(bus.simulation.device(n).node().counters().Dropped == 0);
+  }
+}
 
 TEST_CASE("lexican sim: a device of a description on a hub, with commands of a script and of a pipe") {
   test::Bench bench;
