@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Device for the tests of lexican, described by fixtures/device.eds:
-//   lexican_test_device BUS NODE-ID [silent] [slow] [no-revision] [no-product] [serial=HEX] [eds=FILE]
+//   lexican_test_device BUS NODE-ID [silent] [slow] [no-revision] [no-product] [time-out] [serial=HEX] [eds=FILE]
 // NODE-ID 255: it has none, and is an LSS slave; silent: has a heartbeat and no SDO server; slow: processes frames
-// every 50 ms; no-revision, no-product: refuses 1018h:03, 1018h:02; serial=HEX: 1018h:04; eds=FILE: stores this file in
-// 1021h. Prints "ready" after its boot-up, then "request" for the first SDO request, and "abort CODE" for each abort of
-// the client. Runs until SIGTERM.
+// every 50 ms; no-revision, no-product: refuses 1018h:03, 1018h:02; time-out: refuses 2008h with 0504 0000h;
+// serial=HEX: 1018h:04; eds=FILE: stores this file in 1021h. Prints "ready" after its boot-up, then "request" for the
+// first SDO request, and "abort CODE" for each abort of the client. Runs until SIGTERM.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -48,9 +48,11 @@ CO_OBJ_DOM stored_eds = {0, 0, nullptr};
 std::uint8_t storage_format = 1;  // compressed, unless there is an EDS
 CO_OBJ_DOM program_memory = {0, 100'000, program.data()};
 
+std::uint32_t refusal = CO_SDO_ERR_TOS_STATE;
+
 /// An object whose value cannot be transferred in this state of the device.
 CO_ERR refuse(CO_OBJ* obj, CO_NODE* node, void*, std::uint32_t) {
-  COObjTypeUserSDOAbort(obj, node, CO_SDO_ERR_TOS_STATE);
+  COObjTypeUserSDOAbort(obj, node, refusal);
   return CO_ERR_OBJ_WRITE;
 }
 const CO_OBJ_TYPE refusing = {[](CO_OBJ*, CO_NODE*, std::uint32_t) { return std::uint32_t{1}; }, nullptr, refuse,
@@ -188,6 +190,7 @@ int run(const std::string& bus_name, std::uint8_t id, bool is_silent, bool is_sl
 int main(int number, char** arguments) {
   const std::vector<std::string> words(arguments, arguments + number);
   const auto has = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  refusal = has("time-out") ? CO_SDO_ERR_TIMEOUT : refusal;
   for (CO_OBJ& object : objects) {
     if ((has("no-revision") && object.Key >> 8 == 0x101803) || (has("no-product") && object.Key >> 8 == 0x101802)) {
       object.Type = &refusing;

@@ -1168,6 +1168,27 @@ TEST_CASE("lexican dump: the configuration of a device as a DCF") {
   CHECK(bench.run("dump", {"5", "--eds", eds, "-o", "/nonexistent/5.dcf"}).status == 2);
 }
 
+TEST_CASE("lexican: a device that refuses an object with 0504 0000h has answered") {
+  Bench bench;
+  bench.add(5, "time-out");
+  const std::string refusal =
+      "lexican: node 5, 2008h Mode: aborted with 0504 0000h protocol timed out; the device itself has waited too long; "
+      "repeat the command\n";
+  check(bench.run("read", {"5", "2008", "--eds", eds}), 1, "", refusal);
+  check(bench.run("write", {"5", "2008", "1", "--eds", eds}), 1, "", refusal);
+  const std::string dcf = bench.directory / "5.dcf";
+  const Ran dump = bench.run("dump", {"5", "-o", dcf, "--eds", eds});
+  CHECK(dump.err == "");
+  CHECK(dump.status == 0);
+  CHECK(has(dump.out, "\n1 refused with 0504 0000h protocol timed out: 2008h\n"));
+  std::string text = bytes_of(dcf);
+  text.insert(text.find("ParameterName", text.find("[2008]")), "ParameterValue=1\r\n");
+  write_bytes(dcf, text);
+  const Ran apply = bench.run("apply", {dcf});
+  CHECK(apply.status == 1);
+  CHECK(apply.err == "lexican: 2008h Mode refused: 0504 0000h protocol timed out\n");
+}
+
 TEST_CASE("lexican apply: what differs is shown, and then written") {
   Configured bench;
   check(bench.apply({"--diff"}), 0, "0 of 10 values differ\n", "");

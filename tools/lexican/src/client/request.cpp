@@ -24,7 +24,7 @@ std::string fault_text(const Request& request, const Outcome& outcome) {
     return words + "cancelled";
   }
   words += outcome.transfer.outcome();
-  if (outcome.transfer.code == CO_SDO_ERR_TIMEOUT && outcome.bus_fault.empty()) {
+  if (outcome.transfer.is_unanswered() && outcome.bus_fault.empty()) {
     words += text("; is node %u on this bus, with power, and at this bit rate?", request.node);
   }
   if (!request.write && outcome.transfer.code == CO_SDO_ERR_MEM) {

@@ -8,6 +8,8 @@
 namespace lexican {
 namespace {
 
+constexpr std::uint8_t abort_command = 0x80;
+
 std::string reason(CO_ERR error) {
   switch (error) {
     case CO_ERR_BAD_ARG: return "an SDO transfer carries at least one byte";
@@ -36,7 +38,7 @@ ClientDictionary::ClientDictionary(std::uint8_t server)
       }} {}
 
 std::string Transfer::outcome() const {
-  if (code == CO_SDO_ERR_TIMEOUT) {
+  if (is_unanswered()) {
     return "no answer";
   }
   if (code != 0) {
@@ -53,9 +55,18 @@ void SdoClient::note_end(CO_CSDO* client, std::uint16_t, std::uint8_t, std::uint
   self.code_ = code;
 }
 
-void SdoClient::begin() {
+void SdoClient::begin(CO_CSDO& client, std::uint16_t index, std::uint8_t sub) {
   node_.set_user(this);  // set for each transfer, because the LSS master of the same node sets it, too
   ended_ = false;
+  refusal_.reset();
+  // Devices that do not support a request abort it with index 0. [301:7.2.4.3.17]
+  node_.set_receiver([this, response = client.RxId, object = index | std::uint32_t{sub} << 16](const CO_IF_FRM& frame) {
+    const std::uint32_t aborted = CO_GET_LONG(&frame, 0) >> 8;
+    if (frame.Identifier == response && frame.DLC == 8 && frame.Data[0] == abort_command &&
+        (aborted == object || aborted == 0)) {
+      refusal_ = CO_GET_LONG(&frame, 4);
+    }
+  });
 }
 
 Transfer SdoClient::wait_for_end(CO_CSDO& client, const Options& options) {
@@ -69,13 +80,14 @@ Transfer SdoClient::wait_for_end(CO_CSDO& client, const Options& options) {
   if (!loop_.run_until(has_ended, for_ever)) {
     COCSdoCancel(&client);
   }
-  return {{}, code_, {}};
+  node_.set_receiver({});
+  return {{}, code_, {}, code_ != 0 && refusal_ == code_};
 }
 
 Transfer SdoClient::upload(std::uint16_t index, std::uint8_t sub, const Options& options) {
   CO_CSDO* const client = COCSdoFind(&node_.stack(), 0);
   Bytes data(options.capacity);
-  begin();
+  begin(*client, index, sub);
   const CO_ERR error =
       COCSdoRequestUpload(client, CO_DEV(index, sub), data.data(), options.capacity, note_end, options.timeout);
   if (error != CO_ERR_NONE) {
@@ -92,7 +104,7 @@ Transfer SdoClient::upload(std::uint16_t index, std::uint8_t sub, const Options&
 Transfer SdoClient::download(std::uint16_t index, std::uint8_t sub, Bytes data, const Options& options) {
   CO_CSDO* const client = COCSdoFind(&node_.stack(), 0);
   data.reserve(1);  // no bytes have an address, too
-  begin();
+  begin(*client, index, sub);
   const CO_ERR error = COCSdoRequestDownload(client, CO_DEV(index, sub), data.data(),
                                              static_cast<std::uint32_t>(data.size()), note_end, options.timeout);
   return error == CO_ERR_NONE ? wait_for_end(*client, options) : Transfer{{}, 0, reason(error)};

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "client/progress.hpp"
@@ -31,10 +32,13 @@ class ClientDictionary {
 
 /// Result of a transfer.
 struct Transfer {
-  Bytes data;              // upload: the bytes read
-  std::uint32_t code = 0;  // abort code of either side; 0: none
-  std::string fault;       // reason why it could not be started; empty: it was started
+  Bytes data;               // upload: the bytes read
+  std::uint32_t code = 0;   // abort code of either side; 0: none
+  std::string fault;        // reason why it could not be started; empty: it was started
+  bool is_refused = false;  // the server has sent the abort code
 
+  /// Returns true if the server has not answered in time. A server can also abort with the code of our time-out.
+  bool is_unanswered() const { return code == CO_SDO_ERR_TIMEOUT && !is_refused; }
   bool done() const { return code == 0 && fault.empty(); }
   /// Returns the result as text.
   std::string outcome() const;
@@ -71,14 +75,15 @@ class SdoClient {
 
  private:
   static void note_end(CO_CSDO* client, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
-  void begin();
+  void begin(CO_CSDO& client, std::uint16_t index, std::uint8_t sub);
   Transfer wait_for_end(CO_CSDO& client, const Options& options);
 
   Node& node_;
   Loop& loop_;
   Options usual_;
   bool ended_ = false;
-  std::uint32_t code_ = 0;  // result of the last transfer
+  std::optional<std::uint32_t> refusal_;  // abort code that the server has sent in the last transfer
+  std::uint32_t code_ = 0;                // result of the last transfer
 };
 
 /// A node of the stack as the SDO client of one device.

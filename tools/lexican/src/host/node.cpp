@@ -55,6 +55,9 @@ const CO_IF_CAN_DRV_EX Node::Tap::driver = {
 const Can& Node::Tap::can_of(void* tap) { return static_cast<Tap*>(tap)->can; }
 
 void Node::Tap::report_frame(void* tap, bool received, const CO_IF_FRM& frame) {
+  if (const auto& receiver = static_cast<Tap*>(tap)->receiver; received && receiver) {
+    receiver(frame);
+  }
   if (const Observer& observer = static_cast<Tap*>(tap)->observer) {
     observer(received, frame);
   }

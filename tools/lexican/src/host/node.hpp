@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "co_core.h"
 #include "host/host.hpp"
@@ -54,6 +55,8 @@ class Node {
 
   /// Sets the result of CONodeGetUser().
   void set_user(void* user) { extension_.User = user; }
+  /// Sets a function that is called for each frame that the node receives, before the node processes it; empty: none.
+  void set_receiver(std::function<void(const CO_IF_FRM&)> receiver) { tap_.receiver = std::move(receiver); }
 
   CO_NODE& stack() { return node_; }
   const CO_NODE& stack() const { return node_; }
@@ -70,6 +73,7 @@ class Node {
     Can can;
     Observer observer;
     bool observes_all;
+    std::function<void(const CO_IF_FRM&)> receiver = {};
     bool failing = false;  // the last frame could not be sent because of an error
     static const CO_IF_CAN_DRV_EX driver;
     static const Can& can_of(void* tap);

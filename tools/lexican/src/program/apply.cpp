@@ -189,7 +189,7 @@ class Apply {
 
  private:
   bool is_refusal() const {
-    return transfer_.fault.empty() && transfer_.code != CO_SDO_ERR_TIMEOUT && !session_.is_interrupted();
+    return transfer_.fault.empty() && !transfer_.is_unanswered() && !session_.is_interrupted();
   }
 
   bool is_compared(const Download& download) const {
@@ -452,7 +452,7 @@ int run_apply(const ApplyOptions& options) {
   target.name = "identity (1018h)";
   Transfer transfer;
   const std::optional<describe::Identity> identity = read_identity(session.sdo(), options.common.timeout, transfer);
-  if (!identity && (transfer.code == CO_SDO_ERR_TIMEOUT || session.is_interrupted())) {
+  if (!identity && (transfer.is_unanswered() || session.is_interrupted())) {
     return report_failure(session, target, transfer);
   }
   const codict::Identity& described = description->device()->identity;

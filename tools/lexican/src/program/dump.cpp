@@ -89,7 +89,7 @@ class Dump {
       }
       return true;
     }
-    const bool is_refusal = transfer_.fault.empty() && transfer_.code != CO_SDO_ERR_TIMEOUT;
+    const bool is_refusal = transfer_.fault.empty() && !transfer_.is_unanswered();
     if (is_refusal && !session_.is_interrupted()) {
       refused_[transfer_.code].push_back(key);
       return true;
@@ -175,7 +175,7 @@ int run_dump(DumpOptions& options) {
   const Micros begin = session.host().now();
   Transfer transfer;
   const auto identity = identify_device(session.sdo(), node, options.common, target.network, transfer);
-  if (!identity && (transfer.code == CO_SDO_ERR_TIMEOUT || session.is_interrupted())) {
+  if (!identity && (transfer.is_unanswered() || session.is_interrupted())) {
     return report_failure(session, target, transfer);
   }
   const codict::Device* const description = target.network.of(node).device();

@@ -27,7 +27,7 @@ std::optional<describe::Identity> read_identity(SdoClient& sdo, std::uint32_t ti
   for (std::uint32_t* const part : {&identity.vendor, &identity.product, &identity.revision}) {
     transfer = sdo.upload(identity_object, ++sub, {SdoClient::small, timeout, {}});
     if (!transfer.done() || transfer.data.size() != 4) {
-      const bool is_optional = part == &identity.revision && transfer.code != CO_SDO_ERR_TIMEOUT;
+      const bool is_optional = part == &identity.revision && !transfer.is_unanswered();
       return is_optional ? std::optional(identity) : std::nullopt;
     }
     *part = static_cast<std::uint32_t>(number_of(transfer.data));
@@ -54,7 +54,7 @@ bool read_device_type(SdoClient& sdo, std::uint32_t timeout, codict::Device& dev
   if (transfer.done() && transfer.data.size() == 4) {
     describe::store_device_type(device, static_cast<std::uint32_t>(number_of(transfer.data)));
   }
-  return transfer.code != CO_SDO_ERR_TIMEOUT;
+  return !transfer.is_unanswered();
 }
 
 std::string other_identity(const codict::Identity& described, const describe::Identity& device) {

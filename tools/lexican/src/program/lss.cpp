@@ -314,7 +314,7 @@ class Lss {
       const Transfer transfer = client.sdo().upload(0x1018, sub, {SdoClient::small, options_.common.timeout, {}});
       if (!transfer.done() || transfer.data.size() != 4) {
         print_message(fmt::format("node {}, 1018h:{:02X}: {}", node, sub, transfer.outcome()));
-        return transfer.code == CO_SDO_ERR_TIMEOUT ? no_answer : refused;
+        return transfer.is_unanswered() ? no_answer : refused;
       }
       address[sub - 1U] = static_cast<std::uint32_t>(number_of(transfer.data));
     }
@@ -348,7 +348,7 @@ class Lss {
     DeviceClient client(host_, node);
     const Transfer transfer =
         client.sdo().upload(0x1000, 0, {SdoClient::small, std::max(options_.common.timeout / 10, 1U), {}});
-    if (transfer.code != CO_SDO_ERR_TIMEOUT && !Interruption::happened()) {
+    if (!transfer.is_unanswered() && !Interruption::happened()) {
       print_message(fmt::format("node-ID {} is that of another device; choose one that is free", node));
       return refused;
     }
@@ -371,7 +371,7 @@ class Lss {
     }
     DeviceClient client(host_, node);
     const Transfer transfer = client.sdo().upload(0x1000, 0, {SdoClient::small, options_.common.timeout, {}});
-    if (!transfer.fault.empty() || transfer.code == CO_SDO_ERR_TIMEOUT) {
+    if (!transfer.fault.empty() || transfer.is_unanswered()) {
       print_message(fmt::format("{} has received node-ID {}, but does not answer; it may need lexican nmt reset-comm",
                                 address_name(address), node));
       return no_answer;

@@ -38,7 +38,7 @@ struct HeartbeatTime {
 HeartbeatTime read_heartbeat_time(Session& session, std::uint32_t timeout) {
   const Transfer transfer = session.sdo().upload(0x1017, 0, {SdoClient::small, timeout, {}});
   const bool is_number = transfer.done() && transfer.data.size() == 2;
-  return {transfer.code != CO_SDO_ERR_TIMEOUT || session.state().has_value(),
+  return {!transfer.is_unanswered() || session.state().has_value(),
           is_number ? std::optional(static_cast<std::uint32_t>(number_of(transfer.data))) : std::nullopt};
 }
 

@@ -114,8 +114,7 @@ std::string listed(const std::vector<Named>& names, const describe::Description&
 
 const char* remedy_for(std::uint32_t code, bool is_described) {
   switch (code) {
-    case CO_SDO_ERR_TIMEOUT:
-      return "is it on this bus, with power, and at this bit rate? lexican scan shows who answers";
+    case CO_SDO_ERR_TIMEOUT: return "the device itself has waited too long; repeat the command";
     case CO_SDO_ERR_OBJ:
     case CO_SDO_ERR_SUB:
       return is_described ? "the description may belong to another version of the device; compare 1018h"
@@ -306,7 +305,7 @@ int find_in_device(Session& session, const TransferOptions& options, Target& tar
   const bool is_known = find_object(*options.object, target.network.of(target.node), reference, why);
   Transfer transfer;
   const std::optional<describe::Identity> identity = read_identity(session.sdo(), options.common.timeout, transfer);
-  if (!identity && (transfer.code == CO_SDO_ERR_TIMEOUT || session.host().interrupted())) {
+  if (!identity && (transfer.is_unanswered() || session.host().interrupted())) {
     target.name = "identity (1018h)";
     return report_failure(session, target, transfer);
   }
@@ -342,10 +341,12 @@ int report_failure(Session& session, const Target& target, const Transfer& trans
     print_message(session.bus().refusal());
     return bus_fault;
   }
-  if (transfer.code == CO_SDO_ERR_TIMEOUT) {
+  if (transfer.is_unanswered()) {
     print_message(session.state() == 0x04
                       ? fmt::format("node {0} is stopped and answers no SDO: lexican nmt preop {0}", target.node)
-                      : fmt::format("node {} does not answer; {}", target.node, remedy));
+                      : fmt::format("node {} does not answer; is it on this bus, with power, and at this bit rate? "
+                                    "lexican scan shows who answers",
+                                    target.node));
     return no_answer;
   }
   print_message(fmt::format("node {}, {}: {}", target.node, target.name, transfer.outcome()) +

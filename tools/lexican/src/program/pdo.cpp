@@ -82,7 +82,7 @@ int run_with_device(const PdoOptions& options, std::uint8_t node, describe::Netw
   PdoReader reader(session, node, network, options.common.timeout);
   Transfer transfer;
   const auto identity = identify_device(session.sdo(), node, options.common, network, transfer);
-  if (!identity && (transfer.code == CO_SDO_ERR_TIMEOUT || session.is_interrupted())) {
+  if (!identity && (transfer.is_unanswered() || session.is_interrupted())) {
     return reader.report({0x1018, 1}, transfer);
   }
   return options.command == "show"  ? run_show(options, reader, words)

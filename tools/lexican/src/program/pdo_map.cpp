@@ -90,7 +90,7 @@ class PdoChange {
     for (const PdoStep& step : steps()) {
       const Transfer transfer = write(step);
       const bool is_refusal =
-          transfer.fault.empty() && transfer.code != CO_SDO_ERR_TIMEOUT && !reader_.session().is_interrupted();
+          transfer.fault.empty() && !transfer.is_unanswered() && !reader_.session().is_interrupted();
       if (transfer.done() || !is_refusal) {
         written_.push_back(step);  // without an answer, too: the device may have it
       }

@@ -485,7 +485,7 @@ int watch_bus(Watch& watch, const PdoOptions& options, std::uint8_t node, descri
   PdoReader reader(session, node, network, options.common.timeout);
   Transfer transfer;
   const auto identity = identify_device(session.sdo(), node, options.common, network, transfer);
-  if (!identity && (transfer.code == CO_SDO_ERR_TIMEOUT || session.is_interrupted())) {
+  if (!identity && (transfer.is_unanswered() || session.is_interrupted())) {
     return reader.report({0x1018, 1}, transfer);
   }
   std::vector<DevicePdo> pdos;
