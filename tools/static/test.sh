@@ -66,12 +66,26 @@ reads_from_node() {
   start read 1 1008 -i hub:static
 }
 
+# script gives the program a terminal. A key that is typed before the program reads keys can be lost.
+shows_screen() {
+  local command=(env -i TERM=xterm XDG_RUNTIME_DIR="$place")
+  [ -z "$emulator" ] || command+=("$emulator" -L "$place/root")
+  prints "q quit" timeout 60 script -qec "${command[*]@Q} ${program@Q} top -i hub:static" /dev/null < <(type_quit)
+}
+
+type_quit() {
+  for _ in {1..50}; do
+    sleep 1
+    printf q 2>/dev/null || break
+  done
+}
+
 mkdir "$place/root"
 cp "$program" "$root/tools/codict/tests/fixtures/drive.eds" "$root/tools/lexican/tests/fixtures/fault.pcapng" "$place/root"
 
 case $name in
   codict) echo "1..4" ;;
-  lexican) echo "1..7" ;;
+  lexican) echo "1..8" ;;
 esac
 report "it has at most 8 MB" is_small
 report "it names no loader and no library" needs_no_loader
@@ -83,4 +97,5 @@ else
   report "it connects to a numeric address" refused slcan-tcp:127.0.0.1:1
   report "it connects to localhost" refused socketcand:localhost:1/can0
   report "it reads from a node on a hub" reads_from_node
+  report "it shows a live screen" shows_screen
 fi

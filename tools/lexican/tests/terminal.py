@@ -145,9 +145,9 @@ def test_question(bench, screen):
 class Top:
     """lexican top on a screen."""
 
-    def __init__(self, screen):
+    def __init__(self, screen, environment=""):
         self.screen = screen
-        screen.start(f"lexican top {BUS} --eds clock.eds")
+        screen.start(f"{environment}lexican top {BUS} --eds clock.eds")
         self.wait(r"^   1 \S+ ")
 
     def wait(self, pattern):
@@ -231,6 +231,14 @@ def test_top(bench, screen):
         expect(bench, f"{' '.join(keys)} ends top with status 130", status == status_of, (status, shown))
     now = screen.run("stty -g")
     expect(bench, "Ctrl-C in top restores the settings of the terminal", now == settings, (settings, now))
+    top = Top(screen, "LANG=none_NONE.utf8 ")
+    top.type("n", "start")
+    top.wait(r"^node 1 is operational$")
+    top.shows(bench, "shows plots with a locale that is not installed", r"^TPDO1 Time, Second +\d+ +\u2800*[\u2801-\u28ff]")
+    top.type("q")
+    screen.end()
+    shown, status = screen.run(f"TERM=none lexican top {BUS}")
+    expect(bench, "top names a terminal without terminfo entry", status == "2" and "no entry for 'none'" in shown, shown)
     for name in "dumb", "":
         shown, status = screen.run(f"TERM={name} lexican top {BUS}")
         expect(bench, f"top with TERM={name}: status 2", status == "2" and "lexican mon" in shown, (status, shown))

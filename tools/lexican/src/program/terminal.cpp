@@ -2,11 +2,13 @@
 #include "program/terminal.hpp"
 
 #include <curses.h>
+#include <fmt/format.h>
 #include <langinfo.h>
 #include <unistd.h>
 
 #include <clocale>
 #include <cstdlib>
+#include <regex>
 #include <string_view>
 
 namespace lexican::program {
@@ -59,6 +61,17 @@ std::uint32_t special_key(wint_t key) {
   }
 }
 
+/// Returns true if the environment names a locale with UTF-8, or none.
+bool wants_unicode() {
+  for (const char* const variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* const value = std::getenv(variable);
+    if (value != nullptr && *value != '\0') {
+      return std::regex_search(value, std::regex("utf-?8", std::regex::icase));
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string Terminal::fault() {
@@ -71,14 +84,15 @@ std::string Terminal::fault() {
 
 std::unique_ptr<Terminal> Terminal::open(std::string& why) {
   std::setlocale(LC_CTYPE, "");
-  if (std::string_view(nl_langinfo(CODESET)) != "UTF-8" && std::getenv("LC_ALL") == nullptr &&
-      std::getenv("LC_CTYPE") == nullptr && std::getenv("LANG") == nullptr) {
-    std::setlocale(LC_CTYPE, "C.UTF-8");  // no locale was chosen
+  if (std::string_view(nl_langinfo(CODESET)) != "UTF-8" && wants_unicode()) {
+    std::setlocale(LC_CTYPE, "C.UTF-8");  // no locale was chosen, or one that is not installed
   }
   const bool has_unicode = std::string_view(nl_langinfo(CODESET)) == "UTF-8";
   SCREEN* const screen = newterm(nullptr, stdout, stdin);
   if (screen == nullptr) {
-    why = "the terminal that TERM names is unknown";
+    why = fmt::format(
+        "terminfo has no entry for '{}' (TERM); a package such as ncurses-base or ncurses-term has the file",
+        std::getenv("TERM"));
     return nullptr;
   }
   set_term(screen);
