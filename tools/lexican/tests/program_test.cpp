@@ -1276,6 +1276,30 @@ TEST_CASE("lexican apply: nothing is written if a value of the file does not fit
       "lexican: " + bench.dcf + ": 1017h Producer heartbeat time = '70000' is no value of its type; it is left out\n");
 }
 
+TEST_CASE("lexican apply: nothing is written if a value of the file is beyond its limits") {
+  Configured bench;
+  std::string dcf = bytes_of(bench.dcf);
+  dcf.insert(dcf.find("ParameterName", dcf.find("[1017]")), "HighLimit=1000\r\n");
+  dcf.insert(dcf.find("ParameterName", dcf.find("[1801sub1]")),
+             "LowLimit=$NODEID+0xC0000280\r\nHighLimit=$NODEID+0xC0000280\r\n");
+  write_bytes(bench.dcf, dcf);
+  bench.set("1017", "1000");
+  check(bench.apply({"--diff"}), 1, "1 of 10 values differ\n  1017h Producer heartbeat time  0 -> 1000\n", "");
+  bench.set("1017", "1001");
+  bench.set("1801sub1", "0xC0000284");
+  const std::string faults =
+      "lexican: " + bench.dcf + ": 1017h Producer heartbeat time = 1001 is beyond its limits, - to 1000\n" +  //
+      "lexican: " + bench.dcf +
+      ": 1801h:01 Second TPDO communication parameter, COB-ID = 0xC0000284 is beyond its limits, $NODEID+0xC0000280 to "
+      "$NODEID+0xC0000280\n";
+  check(bench.apply({}), 2, "", faults + "lexican: nothing was written; --force writes values beyond their limits\n");
+  check(bench.run("read", {"5", "1017"}), 0, "1017h:00 producer heartbeat time = 0 (u16)\n", "");
+  const Ran forced = bench.apply({"--force"});
+  CHECK(forced.status == 0);
+  CHECK(forced.err == faults);
+  check(bench.run("read", {"5", "1017"}), 0, "1017h:00 producer heartbeat time = 1001 (u16)\n", "");
+}
+
 TEST_CASE("lexican apply: a value that must not be read is always written") {
   Configured bench;
   bench.set("1017", "250");

@@ -185,6 +185,20 @@ class Apply {
   const std::vector<EntryKey>& left_out() const { return left_out_; }
   /// Values of the file that do not fit their types.
   const std::vector<EntryKey>& malformed() const { return malformed_; }
+  /// Values that are beyond the limits of the file, with these limits.
+  std::map<EntryKey, std::string> beyond_limits() const {
+    std::map<EntryKey, std::string> result;
+    for (const Download& download : downloads_) {
+      const codict::Entry* const entry = device_.find(download.index, download.sub_index);
+      const bool is_integer = !download.is_intermediate && entry != nullptr && entry->actual_value->is_integer();
+      const std::string limits =
+          is_integer ? exceeded_limits(*entry, node_, entry->actual_value->integer_for(node_)) : std::string();
+      if (!limits.empty() && completed_.count({download.index, download.sub_index}) == 0) {
+        result[{download.index, download.sub_index}] = limits;
+      }
+    }
+    return result;
+  }
   std::string text_of(const EntryKey& key) const { return device_.find(key.first, key.second)->actual_value->text; }
 
  private:
@@ -295,7 +309,10 @@ int store(Session& session, Apply& apply, std::uint8_t node, const Common& commo
   if (!saved.done()) {
     return report_failure(session, target, saved);
   }
-  send_command(session.bus(), session.host(), CO_NMT_COMMAND_RESET_NODE, node, common.timeout * millisecond);
+  if (!send_command(session.bus(), session.host(), CO_NMT_COMMAND_RESET_NODE, node, common.timeout * millisecond)) {
+    print_message(fmt::format("stored; but node {} was not reset", node));
+    return report_unsent(session);
+  }
   if (wait_for_state(session, node, 0, boot_time) != 0) {
     print_message(
         fmt::format("stored; but node {} has sent no boot-up message after its reset; lexican apply --diff "
@@ -333,7 +350,7 @@ void print_json_result(const Apply& apply, std::uint8_t node, bool is_stored,
 }
 
 /// Prints the values of the file that cannot be written.
-/// \retval false  some do not fit their types, and --force is not given
+/// \retval false  some do not fit their types, or are beyond their limits, and --force is not given
 bool check_values(const Apply& apply, const ApplyOptions& options) {
   for (const EntryKey& key : apply.malformed()) {
     (options.is_forced ? print_note : print_message)(fmt::format("{}: {} = '{}' is no value of its type{}",
@@ -342,6 +359,15 @@ bool check_values(const Apply& apply, const ApplyOptions& options) {
   }
   if (!apply.malformed().empty() && !options.is_forced) {
     print_message("nothing was written; --force leaves such values out");
+    return false;
+  }
+  const std::map<EntryKey, std::string> beyond_limits = apply.beyond_limits();
+  for (const auto& [key, limits] : beyond_limits) {
+    (options.is_forced ? print_note : print_message)(fmt::format("{}: {} = {} is beyond its limits, {}", options.file,
+                                                                 apply.name_of(key), apply.text_of(key), limits));
+  }
+  if (!beyond_limits.empty() && !options.is_forced) {
+    print_message("nothing was written; --force writes values beyond their limits");
     return false;
   }
   if (!apply.left_out().empty()) {
@@ -389,7 +415,11 @@ int apply_to(Session& session, Apply& apply, std::uint8_t node, const ApplyOptio
     return status;
   }
   if (!differences.empty() || apply.has_write_only()) {
-    send_command(session.bus(), session.host(), CO_NMT_COMMAND_PREOP, node, options.common.timeout * millisecond);
+    if (!send_command(session.bus(), session.host(), CO_NMT_COMMAND_PREOP, node,
+                      options.common.timeout * millisecond)) {
+      print_message("nothing was written");
+      return report_unsent(session);
+    }
     if (!apply.write() || !apply.compare()) {
       return report_break(session, apply, node);
     }
@@ -477,7 +507,8 @@ Verb add_apply(CommandLine& line) {
   arguments.add_flag("--diff", options->shows_only, "Only show what differs");
   arguments.add_flag("--store", options->stores, "Store the parameters (1010h), reset the device, and compare again");
   arguments.add_flag("--force", options->is_forced,
-                     "Also into a device with another identity, and without values that do not fit their types");
+                     "Also into a device with another identity, without values that do not fit their types, and beyond "
+                     "the limits of the file");
   add_bus_options(arguments, options->common);
   add_timeout_option(arguments, options->common, 1000);
   arguments.end_help(

@@ -16,6 +16,12 @@ bool send_command(host_bus::Bus& bus, BusHost& host, CO_NMT_COMMAND command, std
   return true;
 }
 
+int report_unsent(Session& session) {
+  const std::string& fault = session.bus().fault();
+  print_message("the NMT command was not sent: " + (fault.empty() ? "the bus accepts no frames" : fault));
+  return session.is_interrupted() ? interrupted : bus_fault;
+}
+
 std::uint8_t wait_for_state(Session& session, std::uint8_t node, std::uint8_t state, Micros timeout) {
   const Micros begin = session.host().now();
   std::uint8_t last = no_state;

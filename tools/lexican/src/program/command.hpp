@@ -11,6 +11,10 @@ namespace lexican::program {
 /// \retval false  the bus has accepted nothing for \a timeout
 bool send_command(host_bus::Bus& bus, BusHost& host, CO_NMT_COMMAND command, std::uint8_t node, Micros timeout);
 
+/// Prints why send_command() has failed.
+/// \retval status of the program
+int report_unsent(Session& session);
+
 constexpr std::uint8_t no_state = 0xFF;
 
 /// Waits until the error control of the device shows the state; 0: a boot-up message.

@@ -142,9 +142,7 @@ int change_state(Session& session, const NmtOptions& options, const StateCommand
     return interrupted;
   }
   if (!send_command(session.bus(), session.host(), command.specifier, command.node, timeout)) {
-    const std::string& fault = session.bus().fault();
-    print_message("the command was not sent: " + (fault.empty() ? "the bus accepts no frames" : fault));
-    return session.is_interrupted() ? interrupted : bus_fault;
+    return report_unsent(session);
   }
   if (is_all) {
     flush(session.bus(), session.host());

@@ -203,6 +203,16 @@ void add_transfer_options(Arguments& arguments, TransferOptions& options) {
       "Type of the value: " + std::string(value_type_names) + "; default: that of the description, or of CiA 301");
 }
 
+std::string exceeded_limits(const codict::Entry& entry, std::uint8_t node, const codict::Integer& value) {
+  const codict::Value& low = *entry.low_limit;
+  const codict::Value& high = *entry.high_limit;
+  const bool is_low = low.is_integer() && value < low.integer_for(node);
+  const bool is_high = high.is_integer() && high.integer_for(node) < value;
+  return is_low || is_high ? fmt::format("{} to {}", low.is_integer() ? low.written_integer() : "-",
+                                         high.is_integer() ? high.written_integer() : "-")
+                           : std::string();
+}
+
 std::string beyond_limits(const describe::Description& description, std::uint8_t node, const describe::EntryKey& key,
                           const std::string& value) {
   const codict::Device* const device = description.device();
@@ -211,14 +221,10 @@ std::string beyond_limits(const describe::Description& description, std::uint8_t
   if (entry == nullptr || !number.is_meant()) {
     return {};
   }
-  const codict::Value& low = *entry->low_limit;
-  const codict::Value& high = *entry->high_limit;
-  const bool is_low = low.is_integer() && number.value < low.integer_for(node);
-  const bool is_high = high.is_integer() && high.integer_for(node) < number.value;
-  return is_low || is_high ? fmt::format("{} is beyond the limits of the description, {} to {}; --force writes it",
-                                         value, low.is_integer() ? low.written_integer() : "-",
-                                         high.is_integer() ? high.written_integer() : "-")
-                           : std::string();
+  const std::string limits = exceeded_limits(*entry, node, number.value);
+  return limits.empty()
+             ? std::string()
+             : fmt::format("{} is beyond the limits of the description, {}; --force writes it", value, limits);
 }
 
 std::string type_text(const ValueType& type) {

@@ -107,6 +107,9 @@ struct ObjectReference {
 bool find_object(const std::string& word, const describe::Description& description, ObjectReference& found,
                  std::string& why);
 
+/// Returns the limits that a description has, "0 to 100", if an integer is beyond them; empty: it is not.
+std::string exceeded_limits(const codict::Entry& entry, std::uint8_t node, const codict::Integer& value);
+
 /// Returns whether an integer is beyond the limits that a description has: the message; empty: it is not.
 std::string beyond_limits(const describe::Description& description, std::uint8_t node, const describe::EntryKey& key,
                           const std::string& value);
