@@ -98,7 +98,7 @@ TEST_CASE("lexican: an unknown verb is refused with the nearest one") {
 TEST_CASE("lexican: a verb may be shortened") {
   CHECK(run({"rea", "--help"}).out == run({"read", "--help"}).out);
   CHECK(run({"sc", "--help"}).out == run({"scan", "--help"}).out);
-  check(run({"s"}), 2, "", "lexican: s is the beginning of several verbs: scan, share\n");
+  check(run({"s"}), 2, "", "lexican: s is the beginning of several verbs: scan, sim, share\n");
   CHECK(run({"", "--help"}).out == run({"--help"}).out);
   check(run({"reads", "5", "1000"}), 2, "", "lexican: unknown verb reads; did you mean read?\n");
 }
