@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Device for the tests of lexican, described by fixtures/device.eds:
-//   lexican_test_device BUS NODE-ID [silent] [slow] [no-revision] [no-product] [time-out] [serial=HEX] [eds=FILE]
+//   lexican_test_device BUS NODE-ID [silent] [slow] [no-revision] [no-product] [time-out] [refuses-rate]
+//                       [refuses-store] [serial=HEX] [eds=FILE]
+//   lexican_test_device BUS 0 answers-lss
 // NODE-ID 255: it has none, and is an LSS slave; silent: has a heartbeat and no SDO server; slow: processes frames
 // every 50 ms; no-revision, no-product: refuses 1018h:03, 1018h:02; time-out: refuses 2008h with 0504 0000h;
-// serial=HEX: 1018h:04; eds=FILE: stores this file in 1021h. Prints "ready" after its boot-up, then "request" for the
-// first SDO request, and "abort CODE" for each abort of the client. Runs until SIGTERM.
+// refuses-rate, refuses-store: refuses this LSS service; serial=HEX: 1018h:04; eds=FILE: stores this file in 1021h.
+// answers-lss: no device, but an answer to each LSS request. Prints "ready" after its boot-up, then "request" for the
+// first SDO request, "abort CODE" for each abort of the client, "rate RATE" for a bit rate that LSS configures, and
+// "stored RATE". Runs until SIGTERM.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -140,6 +144,53 @@ void report(std::uint8_t node, const CO_IF_FRM& frame) {
   }
 }
 
+bool refuses_rate = false;
+bool refuses_store = false;
+
+std::uint8_t permit_lss(CO_NODE*, void*, CO_ACCESS_LSS* access) {
+  if (access->Service != CO_LSS_SERVICE_BIT_TIMING || refuses_rate) {
+    return access->Service == CO_LSS_SERVICE_BIT_TIMING ? 1 : 0;
+  }
+  print_line(("rate " + std::to_string(access->Baudrate)).c_str());
+  return 0;
+}
+
+CO_ERR store_lss(CO_NODE*, void*, std::uint32_t bit_rate, std::uint8_t) {
+  if (!refuses_store) {
+    print_line(("stored " + std::to_string(bit_rate)).c_str());
+  }
+  return refuses_store ? CO_ERR_LSS_NO_STORE : CO_ERR_NONE;
+}
+
+const CO_CALLBACKS* callbacks() {
+  static CO_CALLBACKS result{};
+  result.LssStore = store_lss;
+  result.AccessLss = permit_lss;
+  return &result;
+}
+
+/// Answers each LSS request as a slave that is searched for.
+int answer_lss(const std::string& bus_name) {
+  std::string why;
+  const std::unique_ptr<host_bus::Bus> bus = host_bus::open_bus(bus_name, {}, why);
+  const Interruption interruption;
+  if (bus == nullptr) {
+    std::fprintf(stderr, "%s\n", why.c_str());
+    return 1;
+  }
+  BusHost host(*bus, interruption, BusHost::Role::master);
+  print_line("ready");
+  while (!host.interrupted()) {
+    while (const std::optional<host_bus::Entry> entry = bus->receive()) {
+      if (entry->frame.Identifier == 0x7E5) {
+        bus->send({0x7E4, {0x4F}, 8});
+      }
+    }
+    host.wait(second);
+  }
+  return 0;
+}
+
 int run(const std::string& bus_name, std::uint8_t id, bool is_silent, bool is_slow) {
   std::string why;
   const std::unique_ptr<host_bus::Bus> bus = host_bus::open_bus(bus_name, {}, why);
@@ -167,6 +218,7 @@ int run(const std::string& bus_name, std::uint8_t id, bool is_silent, bool is_sl
            report(id, frame);
          }
        }});
+  const_cast<CO_NODE_EXT*>(node.stack().Ext)->Callbacks = callbacks();
   Loop loop(host, {&node});
   CONodeStart(&node.stack());
   loop.flush(second);
@@ -209,6 +261,11 @@ int main(int number, char** arguments) {
       stored_eds = {0, static_cast<std::uint32_t>(eds.size()), eds.data()};
       storage_format = 0;
     }
+  }
+  refuses_rate = has("refuses-rate");
+  refuses_store = has("refuses-store");
+  if (has("answers-lss")) {
+    return answer_lss(words[1]);
   }
   return number < 3 ? 2 : run(words[1], static_cast<std::uint8_t>(std::atoi(arguments[2])), has("silent"), has("slow"));
 }

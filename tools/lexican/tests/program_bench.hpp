@@ -101,8 +101,17 @@ class Bench {
     }
   }
 
-  Process& add(unsigned node, const std::string& kind = "usual") {
-    devices_.emplace_back(Words{LEXICAN_TEST_DEVICE, hub_, std::to_string(node), kind}, environment_);
+  /// Gives the hub a bit rate, before there are devices.
+  void pace(const std::string& rate) {
+    hub_ += '@' + rate;
+    environment_["LEXICAN_BUS"] = hub_;
+  }
+
+  Process& add(unsigned node, const std::string& kind = "usual") { return add_kinds(node, {kind}); }
+  Process& add_kinds(unsigned node, const Words& kinds) {
+    Words words{LEXICAN_TEST_DEVICE, hub_, std::to_string(node)};
+    words.insert(words.end(), kinds.begin(), kinds.end());
+    devices_.emplace_back(words, environment_);
     devices_.back().wait_for("ready");
     return devices_.back();
   }

@@ -1404,6 +1404,17 @@ TEST_CASE("lexican lss: devices without node-ID are found, and receive one") {
   CHECK(Json::parse(json.out)["node"].is_null());
   check(bench.run("lss", {"assign", "A7=5"}), 1, "",
         "lexican: node-ID 5 is that of another device; choose one that is free\n");
+  for (const char* const heartbeat : {"0", "200"}) {  // without it, by node guarding
+    CAPTURE(heartbeat);
+    bench.run("nmt", {"start", "5"});
+    CHECK(bench.run("write", {"5", "1017", heartbeat, "--type", "u16"}).status == 0);
+    bench.run("nmt", {"stop", "5"});  // it does not answer SDO requests
+    check(bench.run("lss", {"assign", "A7=5"}), 1, "",
+          "lexican: node-ID 5 is that of another device; choose one that is free\n");
+  }
+  check(bench.run("lss", {"assign", "A7=7", "A7=8"}), 2, "", "lexican: the device 000000A7 is given twice\n");
+  check(bench.run("lss", {"assign", "A7=7", "100:402:10000:A7=8"}), 2, "",
+        "lexican: the device 00000100:00000402:00010000:000000A7 is given twice\n");
   check(bench.run("lss", {"assign", "A8=6"}), 3, "",
         "lexican: no device without node-ID has the serial number 000000A8; lexican lss scan shows all\n");
   check(bench.run("lss", {"assign", "A7=6"}), 0, "000000A7 is node 6\n", "");
@@ -1430,6 +1441,15 @@ TEST_CASE("lexican lss: a plan, and two devices with the same address") {
   CHECK(twice.status == 1);
   CHECK(has(twice.err, "LSS: "));
   CHECK(bench.run("read", {"8", "1000", "--timeout", "50"}).status == 3);
+  for (const char* const line : {"A7,128", "A7", "A7;5", "0xA7 5", "1:2:3:4,200", ",5", "123456789,5"}) {
+    write_bytes(plan, std::string(line) + "\nA8,9\n");
+    check(bench.run("lss", {"assign", plan}), 2, "",
+          "lexican: " + plan + ", line 1: '" + line + "' is not SERIAL,NODE, such as 000001A2,6\n");
+  }
+  write_bytes(plan,
+              "\xEF\xBB\xBF"
+              "A7,6\nA8,6\n");
+  check(bench.run("lss", {"assign", plan}), 2, "", "lexican: node-ID 6 is given twice\n");
   for (const char* const line : {"1,A7", "A7,0", "A7,128", "A7", "123456789,5", "1:2:3,5", "1:2:3:4:5,5"}) {
     write_bytes(plan, std::string("serial,node\n") + line + "\n");
     check(bench.run("lss", {"assign", plan}), 2, "",
@@ -1447,8 +1467,72 @@ TEST_CASE("lexican lss: the bit rate of all devices") {
   bench.add(255, "serial=A7");
   check(bench.run("lss", {"rate", "250k", "--delay", "10"}), 0,
         "2 devices have 250 kbit/s until their reset; the next command needs this rate\n", "");
-  const Ran odd = bench.run("lss", {"rate", "333k", "--delay", "10"});
-  CHECK(odd.status != 0);
-  CHECK(bench.run("lss", {"rate"}).status == 2);
-  CHECK(bench.run("lss", {"rate", "fast"}).status == 2);
+  for (const char* const rate : {"250", "333k", "fast", "100k"}) {
+    check(bench.run("lss", {"rate", rate}), 2, "",
+          std::string("lexican: '") + rate +
+              "' is no bit rate of LSS: give 10k, 20k, 50k, 125k, 250k, 500k, 800k or 1M\n");
+  }
+  check(bench.run("lss", {"rate"}), 2, "", "lexican: give one bit rate, such as 250k\n");
+}
+
+TEST_CASE("lexican lss: a device that refuses the bit rate") {
+  const std::string name = "00000100:00000402:00010000:000000A";
+  for (const std::string rate : {"", "500k"}) {
+    CAPTURE(rate);
+    Bench bench;
+    if (!rate.empty()) {
+      bench.pace(rate);
+    }
+    Process& first = bench.add(255, "serial=A7");
+    bench.add_kinds(255, {"serial=A8", "refuses-rate"});
+    check(
+        bench.run("lss", {"rate", "250k", "--store"}), 1, "",
+        "lexican: " + name + "8 does not accept the bit rate; none was switched\nlexican: LSS: refused with error 1\n" +
+            (rate.empty()
+                 ? "lexican: " + name + "7 has 250 kbit/s for the next activation; lexican lss rate gives it another\n"
+                 : ""));
+    first.send(SIGTERM);
+    CHECK(first.finish().out == (rate.empty() ? "ready\nrate 250000\n" : "ready\nrate 250000\nrate 500000\n"));
+  }
+}
+
+TEST_CASE("lexican lss: a device that refuses to store") {
+  const std::string name = "00000100:00000402:00010000:000000A";
+  for (const std::string rate : {"", "500k"}) {
+    CAPTURE(rate);
+    Bench bench;
+    if (!rate.empty()) {
+      bench.pace(rate);
+    }
+    Process& first = bench.add(255, "serial=A7");
+    bench.add_kinds(255, {"serial=A8", "refuses-store"});
+    check(bench.run("lss", {"rate", "250k", "--store"}), 1, "",
+          "lexican: " + name +
+              "8 does not store the bit rate; none was switched\nlexican: LSS: refused with error 1\n" +
+              (rate.empty() ? "lexican: " + name + "7 has stored 250 kbit/s, and has it after its next reset\n" +
+                                  "lexican: " + name +
+                                  "8 has 250 kbit/s for the next activation; lexican lss rate gives it another\n"
+                            : ""));
+    first.send(SIGTERM);
+    CHECK(first.finish().out == (rate.empty() ? "ready\nrate 250000\nstored 250000\n"
+                                              : "ready\nrate 250000\nstored 250000\nrate 500000\nstored 500000\n"));
+    check(bench.run("lss", {"assign", "A8=7", "--store"}), 1, "",
+          "lexican: " + name +
+              "8 has node-ID 7 until its next reset; it did not store it\n"
+              "lexican: LSS: refused with error 1\n");
+    CHECK(has(bench.run("lss", {"info", "-n", "7"}).out, "node-ID          7\n"));
+  }
+}
+
+TEST_CASE("lexican lss: a node that answers each request, and options of another command") {
+  Bench bench;
+  bench.add(0, "answers-lss");
+  check(bench.run("lss", {"scan"}), 1, "",
+        "lexican: LSS: fastscan has found the address 0 0 0 0, which no node has: a node answers every request of a "
+        "fastscan; disconnect it, or name the node to configure by VENDOR:PRODUCT:REVISION:SERIAL\n");
+  const std::string only = "lexican: --delay is for rate, --store for assign and rate, -n for info\n";
+  check(bench.run("lss", {"assign", "A7=6", "--delay", "3"}), 2, "", only);
+  check(bench.run("lss", {"assign", "A7=6", "-n", "7"}), 2, "", only);
+  check(bench.run("lss", {"scan", "--store"}), 2, "", only);
+  check(bench.run("lss", {"info", "A1", "-n", "20"}), 2, "", "lexican: give SERIAL or -n NODE, not both\n");
 }

@@ -19,6 +19,10 @@ namespace {
 constexpr std::uint8_t own_id = 127;  // of a master without a node-ID of the command line
 constexpr std::uint8_t waiting = CO_LSSM_WAITING;
 
+/// How the program names a node, as the remedy for one that disturbs a fastscan.
+constexpr const char* by_option = "; disconnect it, or name the node to configure by --address";
+constexpr const char* by_name = "; disconnect it, or name the node to configure by VENDOR:PRODUCT:REVISION:SERIAL";
+
 std::string address_text(const LssAddress& address) {
   return text("0x%08X 0x%08X 0x%08X 0x%08X", address[0], address[1], address[2], address[3]);
 }
@@ -43,14 +47,14 @@ bool has_identity(LssMaster& master, const LssAddress& address) {
 }
 
 /// Finds a node without node-ID and switches it to the state configuration.
-bool find_node(LssMaster& master) {
+bool find_node(LssMaster& master, const std::string& remedy) {
   if (!master.run(COLssmFastscan, nullptr, std::uint8_t{0})) {
     return false;
   }
   if (master.address() == LssAddress{}) {
     return master.fail(
-        "fastscan has found the address 0 0 0 0, which no node has: a node answers every request of a fastscan; "
-        "disconnect it, or name the node to configure by --address");
+        "fastscan has found the address 0 0 0 0, which no node has: a node answers every request of a fastscan" +
+        remedy);
   }
   return master.answers() <= 1 || master.is_alone();  // otherwise the fastscan has already waited for answers
 }
@@ -74,19 +78,18 @@ bool select_all(LssMaster& master, const std::vector<LssAddress>& addresses) {
 }
 
 /// Finds the next node, not one of \a found. Scans again if the node did not answer at the end: an answer was late.
-bool find_next_node(LssMaster& master, const std::vector<LssAddress>& found) {
-  return find_node(master) || (master.timed_out() && master.run(COLssmSwitchGlobal, waiting) &&
-                               select_all(master, found) && find_node(master));
+bool find_next_node(LssMaster& master, const std::vector<LssAddress>& found, const std::string& remedy) {
+  return find_node(master, remedy) || (master.timed_out() && master.run(COLssmSwitchGlobal, waiting) &&
+                                       select_all(master, found) && find_node(master, remedy));
 }
 
-bool scan_nodes(LssMaster& master, const std::function<void(const LssAddress&)>& report) {
+bool scan_nodes(LssMaster& master, const std::string& remedy, const std::function<void(const LssAddress&)>& report) {
   std::vector<LssAddress> found;
-  while (find_next_node(master, found)) {
+  while (find_next_node(master, found, remedy)) {
     const LssAddress address = master.address();
     if (std::find(found.begin(), found.end(), address) != found.end()) {
       return master.fail("fastscan has found " + address_text(address) +
-                         " again: this node answers although it is selected or has a node-ID; disconnect it, or name "
-                         "the node to configure by --address");
+                         " again: this node answers although it is selected or has a node-ID" + remedy);
     }
     if (!verify_address(master, address)) {
       return false;
@@ -104,7 +107,7 @@ bool select_node(LssMaster& master, const LssRequest& request, std::ostream& out
   if (request.address) {
     return master.run_alone(COLssmSwitchSelective, request.address->data()) && has_identity(master, *request.address);
   }
-  if (!find_node(master)) {
+  if (!find_node(master, by_option)) {
     return false;
   }
   const LssAddress address = master.address();
@@ -158,7 +161,7 @@ bool run_request(LssMaster& master, const LssRequest& request, std::ostream& out
     return false;
   }
   if (request.action == LssAction::scan) {
-    return scan_nodes(master, [&](const LssAddress& address) { print_address(out, address); });
+    return scan_nodes(master, by_option, [&](const LssAddress& address) { print_address(out, address); });
   }
   return select_node(master, request, out) && run_action(master, request, out) &&
          (!request.store || master.run(COLssmStore));
@@ -198,7 +201,7 @@ LssSession::~LssSession() {
 }
 
 bool LssSession::find_unconfigured(const std::function<void(const LssAddress&)>& found) {
-  return scan_nodes(master_, found);
+  return scan_nodes(master_, by_name, found);
 }
 
 bool LssSession::select(const LssAddress& address) { return release() && verify_address(master_, address); }

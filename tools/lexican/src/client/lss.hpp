@@ -50,6 +50,8 @@ class LssSession {
 
   std::string fault() const { return master_.fault(); }
   bool is_cancelled() const { return master_.cancelled(); }
+  /// Returns true if the selected slave has not answered the last request.
+  bool is_silent() const { return master_.timed_out(); }
 
  private:
   ClientDictionary dictionary_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -15,15 +16,18 @@
 namespace lexican::program {
 namespace {
 
-constexpr std::uint8_t no_node = 255;  // in place of a node-ID
-constexpr unsigned serial = 3;         // in an LssAddress
+constexpr std::uint8_t no_node = 255;        // in place of a node-ID
+constexpr unsigned serial = 3;               // in an LssAddress
+constexpr std::uint32_t usual_delay = 1000;  // ms
+constexpr std::array<std::uint32_t, 8> bit_rates = {10'000,  20'000,  50'000,  125'000,
+                                                    250'000, 500'000, 800'000, 1'000'000};  // [305]
 
 struct LssOptions {
   Common common;
   std::string command;
   std::vector<std::string> words;
   bool stores = false;
-  std::uint32_t delay = 1000;  ///< ms
+  std::uint32_t delay = 0;  ///< ms; 0: not given
 };
 
 /// The name of a device: its serial number, or its whole address.
@@ -64,6 +68,12 @@ std::optional<LssName> name_of(std::string_view word) {
   return LssName{std::nullopt, address};
 }
 
+std::string text_of(const LssName& name) {
+  return name.address ? address_name(*name.address) : fmt::format("{:08X}", name.serial_number.value_or(0));
+}
+
+bool is_one(const LssName& a, const LssName& b) { return a.serial_number == b.serial_number && a.address == b.address; }
+
 constexpr const char* names_help =
     "a device is named by its serial number, such as 000001A2, or by VENDOR:PRODUCT:REVISION:SERIAL, in hexadecimal";
 
@@ -79,6 +89,12 @@ std::optional<Assignment> assignment_of(std::string_view word, char separator) {
   return device && node_of(node) != 0 ? std::optional(Assignment{*device, node_of(node)}) : std::nullopt;
 }
 
+/// Returns whether a line of a plan has names of columns: it begins neither with a number nor with an address.
+bool is_heading(std::string_view line) {
+  const std::string_view first = line.substr(0, line.find_first_of(",; \t"));
+  return first.find_first_not_of("0123456789abcdefABCDEFxX:") != std::string_view::npos;
+}
+
 /// Reads the lines "SERIAL,NODE" of a plan. Its first line may have names of the columns, and a third column is for
 /// people.
 bool read_plan(const std::string& path, std::vector<Assignment>& plan) {
@@ -88,7 +104,9 @@ bool read_plan(const std::string& path, std::vector<Assignment>& plan) {
     print_message(why);
     return false;
   }
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // of a spreadsheet
   std::string_view rest = source->bytes();
+  rest.remove_prefix(rest.substr(0, byte_order_mark.size()) == byte_order_mark ? byte_order_mark.size() : 0);
   for (unsigned number = 1; !rest.empty(); ++number) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view line = codict::trimmed(rest.substr(0, end));
@@ -96,7 +114,7 @@ bool read_plan(const std::string& path, std::vector<Assignment>& plan) {
     const std::optional<Assignment> assignment = assignment_of(line, ',');
     if (assignment) {
       plan.push_back(*assignment);
-    } else if (!line.empty() && line.front() != '#' && number != 1) {
+    } else if (!line.empty() && line.front() != '#' && !(number == 1 && is_heading(line))) {
       print_message(fmt::format("{}, line {}: '{}' is not SERIAL,NODE, such as 000001A2,6", path, number, line));
       return false;
     }
@@ -128,6 +146,11 @@ bool read_assignments(const LssOptions& options, std::vector<Assignment>& plan) 
     const auto is_same = [&](const Assignment& other) { return other.node == plan[n].node; };
     if (std::any_of(plan.begin() + static_cast<std::ptrdiff_t>(n) + 1, plan.end(), is_same)) {
       print_message(fmt::format("node-ID {} is given twice", plan[n].node));
+      return false;
+    }
+    const auto is_same_device = [&](const Assignment& other) { return is_one(other.device, plan[n].device); };
+    if (std::any_of(plan.begin() + static_cast<std::ptrdiff_t>(n) + 1, plan.end(), is_same_device)) {
+      print_message(fmt::format("the device {} is given twice", text_of(plan[n].device)));
       return false;
     }
   }
@@ -188,9 +211,13 @@ class Lss {
     for (const Assignment& each : plan) {
       LssAddress address{};
       status = status != ok ? status : match(each.device, found, address);
-      status = status != ok ? status : check_free(each.node);
+      if (status == ok && std::find(addresses.begin(), addresses.end(), address) != addresses.end()) {
+        print_message("the device " + address_name(address) + " is given twice");
+        status = usage;
+      }
       addresses.push_back(address);
     }
+    status = status != ok ? status : check_free(plan);
     status = status != ok
                  ? status
                  : agree(bus_, options_.common,
@@ -211,13 +238,14 @@ class Lss {
       return status;
     }
     LssSession lss(host_, times());
-    for (const LssAddress& address : addresses) {
-      if (!lss.select(address) || !lss.set_bit_rate(bit_rate) || (options_.stores && !lss.store())) {
-        print_message(address_name(address) + " does not accept the bit rate; none was switched");
-        return report(lss);
-      }
+    status = configure_rate(lss, addresses, bit_rate);
+    if (status != ok) {
+      return status;
     }
-    if (!lss.activate(addresses, static_cast<std::uint16_t>(options_.delay))) {
+    const std::uint32_t delay = options_.delay != 0 ? options_.delay : usual_delay;
+    if (!lss.activate(addresses, static_cast<std::uint16_t>(delay))) {
+      print_message(fmt::format("the devices have {} kbit/s for the next activation{}; the switch was not completed",
+                                bit_rate / 1000, options_.stores ? ", and have stored it" : ""));
       return report(lss);
     }
     if (options_.common.is_json) {
@@ -243,6 +271,56 @@ class Lss {
     }
     print_message("LSS: " + lss.fault());
     return refused;
+  }
+
+  /// Gives all devices a bit rate for the activation, then lets all store it. If one refuses it, the others receive the
+  /// old rate again.
+  int configure_rate(LssSession& lss, const std::vector<LssAddress>& addresses, std::uint32_t bit_rate) {
+    const auto fail = [&](std::size_t n, const char* refusal, std::size_t configured, std::size_t stored) {
+      if (!Interruption::happened() && bus_.fault().empty()) {
+        print_message(fmt::format("{} {}; none was switched", address_name(addresses[n]), refusal));
+      }
+      const int status = report(lss);
+      restore_rate(lss, {addresses.begin(), addresses.begin() + static_cast<std::ptrdiff_t>(configured)}, stored,
+                   bit_rate);
+      return status;
+    };
+    for (std::size_t n = 0; n < addresses.size(); ++n) {
+      if (!lss.select(addresses[n])) {
+        return fail(n, "cannot be selected by LSS", n, 0);
+      }
+      if (!lss.set_bit_rate(bit_rate)) {
+        const bool is_silent = lss.is_silent();  // its answer may have been lost
+        return fail(n, is_silent ? "does not answer" : "does not accept the bit rate", is_silent ? n + 1 : n, 0);
+      }
+    }
+    for (std::size_t n = 0; n < addresses.size() && options_.stores; ++n) {
+      if (!lss.select(addresses[n])) {
+        return fail(n, "cannot be selected by LSS", addresses.size(), n);
+      }
+      if (!lss.store()) {
+        const bool is_silent = lss.is_silent();
+        return fail(n, is_silent ? "does not answer the request to store" : "does not store the bit rate",
+                    addresses.size(), is_silent ? n + 1 : n);
+      }
+    }
+    return ok;
+  }
+
+  /// Gives devices the bit rate of the bus again, and names those that keep the new one. \a stored: the first devices,
+  /// which have stored it.
+  void restore_rate(LssSession& lss, const std::vector<LssAddress>& configured, std::size_t stored,
+                    std::uint32_t bit_rate) {
+    const std::uint32_t old = bus_.bit_rate();
+    for (std::size_t n = 0; n < configured.size(); ++n) {
+      const bool has_stored = n < stored;
+      if (old == 0 || !lss.select(configured[n]) || !lss.set_bit_rate(old) || (has_stored && !lss.store())) {
+        print_message(fmt::format(has_stored
+                                      ? "{} has stored {} kbit/s, and has it after its next reset"
+                                      : "{} has {} kbit/s for the next activation; lexican lss rate gives it another",
+                                  address_name(configured[n]), bit_rate / 1000));
+      }
+    }
   }
 
   /// Finds the devices without node-ID.
@@ -343,29 +421,72 @@ class Lss {
     return matches.empty() ? no_answer : usage;
   }
 
-  /// Checks that no device has a node-ID.
-  int check_free(std::uint8_t node) {
-    DeviceClient client(host_, node);
-    const Transfer transfer =
-        client.sdo().upload(0x1000, 0, {SdoClient::small, std::max(options_.common.timeout / 10, 1U), {}});
-    if (!transfer.is_unanswered() && !Interruption::happened()) {
-      print_message(fmt::format("node-ID {} is that of another device; choose one that is free", node));
-      return refused;
+  /// Checks that no device has one of the node-IDs. A device that is stopped does not answer SDO requests, but has a
+  /// heartbeat or answers node guarding. That is asked last, because the first request starts the life guarding.
+  int check_free(const std::vector<Assignment>& plan) {
+    HostLine line(host_);
+    const Micros time = options_.common.timeout * millisecond;
+    std::vector<CO_IF_FRM> questions;
+    std::vector<CO_IF_FRM> guarding;
+    for (const Assignment& each : plan) {
+      questions.push_back({0x600U + each.node, {0x40, 0x00, 0x10, 0x00}, 8});
+      guarding.push_back({(0x700U + each.node) | CO_IF_FRM_RTR, {}, 1});
     }
+    std::uint8_t other = 0;
+    bool is_sent = ask(line, questions, plan, time, other);
+    is_sent = is_sent && (other != 0 || ask(line, guarding, plan, std::max<Micros>(time / 10, millisecond), other));
     if (Interruption::happened()) {
       print_message("interrupted; nothing was changed");
       return interrupted;
     }
+    if (!bus_.fault().empty()) {
+      print_message(bus_.fault());
+      return bus_fault;
+    }
+    if (other != 0) {
+      print_message(fmt::format("node-ID {} is that of another device; choose one that is free", other));
+      return refused;
+    }
+    if (!is_sent) {
+      print_message("the bus accepts no frames; nothing was changed");
+      return no_answer;
+    }
     return ok;
+  }
+
+  /// Sends frames, and listens to the nodes of a plan. \a heard: the first one that has sent something; else unchanged.
+  /// \retval false  the bus does not accept the frames
+  static bool ask(HostLine& line, const std::vector<CO_IF_FRM>& frames, const std::vector<Assignment>& plan,
+                  Micros time, std::uint8_t& heard) {
+    const Micros begin = line.now();
+    std::size_t sent = 0;
+    for (Micros now = begin; now - begin < time && heard == 0 && !line.is_ended(); now = line.now()) {
+      while (sent < frames.size() && line.send(frames[sent])) {
+        ++sent;
+      }
+      line.wait(sent < frames.size() ? millisecond : begin + time - now);
+      while (const std::optional<CO_IF_FRM> frame = line.receive()) {
+        const auto is_of = [&](const Assignment& each) {
+          return frame->Identifier == 0x580U + each.node || frame->Identifier == 0x700U + each.node;
+        };
+        const auto found = std::find_if(plan.begin(), plan.end(), is_of);
+        heard = heard == 0 && found != plan.end() ? found->node : heard;
+      }
+    }
+    return sent == frames.size();
   }
 
   /// Gives a device its node-ID, and waits until it answers.
   int assign(const LssAddress& address, std::uint8_t node) {
     {
       LssSession lss(host_, times());
-      if (!lss.select(address) || !lss.set_node_id(node) || (options_.stores && !lss.store())) {
-        print_message(fmt::format("{}: node-ID {} was not {}", address_name(address), node,
-                                  options_.stores ? "set and stored" : "set"));
+      if (!lss.select(address) || !lss.set_node_id(node)) {
+        print_message(fmt::format("{}: node-ID {} was not set", address_name(address), node));
+        return report(lss);
+      }
+      if (options_.stores && !lss.store()) {
+        print_message(fmt::format("{} has node-ID {} until its next reset; it did not {} it", address_name(address),
+                                  node, lss.is_silent() ? "confirm that it has stored" : "store"));
         return report(lss);
       }
     }
@@ -403,24 +524,46 @@ class Lss {
   BusHost host_;
 };
 
+/// Checks that each option and argument is one of the command.
+bool has_right_options(const LssOptions& options) {
+  const bool changes = options.command == "assign" || options.command == "rate";
+  const bool is_info = options.command == "info";
+  if ((options.stores && !changes) || (options.delay != 0 && options.command != "rate") ||
+      (!options.common.node.empty() && !is_info)) {
+    print_message("--delay is for rate, --store for assign and rate, -n for info");
+    return false;
+  }
+  if (is_info && !options.words.empty() && !options.common.node.empty()) {
+    print_message("give SERIAL or -n NODE, not both");
+    return false;
+  }
+  if (!changes && options.words.size() > (is_info ? 1U : 0U)) {
+    print_message("too many arguments for " + options.command);
+    return false;
+  }
+  return true;
+}
+
 int run_lss(const LssOptions& options) {
+  if (!has_right_options(options)) {
+    return usage;
+  }
   std::vector<Assignment> plan;
   std::uint32_t bit_rate = 0;
   if (options.command == "assign" && !read_assignments(options, plan)) {
     return usage;
   }
   if (options.command == "rate") {
-    bit_rate = options.words.size() == 1 ? bit_rate_of(options.words.front()) : 0U;
-    if (bit_rate == 0) {
+    if (options.words.size() != 1) {
       print_message("give one bit rate, such as 250k");
       return usage;
     }
-  }
-  const bool has_too_many = options.words.size() > (options.command == "info" ? 1U : 0U);
-  if ((options.command == "scan" || options.command == "info") && (has_too_many || options.stores)) {
-    print_message(fmt::format("{}{}", options.stores ? "--store is for assign and rate" : "too many arguments for ",
-                              options.stores ? "" : options.command));
-    return usage;
+    bit_rate = bit_rate_of(options.words.front());
+    if (std::find(bit_rates.begin(), bit_rates.end(), bit_rate) == bit_rates.end()) {
+      print_message("'" + options.words.front() +
+                    "' is no bit rate of LSS: give 10k, 20k, 50k, 125k, 250k, 500k, 800k or 1M");
+      return usage;
+    }
   }
   int status = ok;
   const std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, false, status);
