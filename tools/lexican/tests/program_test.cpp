@@ -668,7 +668,7 @@ TEST_CASE("lexican: a log, or a path, as the bus of a verb that sends") {
   const std::string log = directory / "a.log";
   write_bytes(log, "(0.000000) can0 705#7F\n");
   check(run({"read", "5", "1008", "-i", "replay:" + log}), 2, "",
-        "lexican: replay:" + log + " is a log, which only lexican mon and pdo watch can use\n");
+        "lexican: replay:" + log + " is a log, which only lexican mon, pdo watch and top can use\n");
   const Ran ran = run({"scan", "-i", "/dev/pts/0"});
   CHECK(has(ran.err, "lexican: '/dev/pts/0' is no bus, which is one of:\n"));
   CHECK(has(ran.err, "slcan:/dev/ttyACM0@500k"));
