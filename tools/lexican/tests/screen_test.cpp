@@ -282,6 +282,49 @@ TEST_CASE("screen: no control characters of devices, files and the user") {
   CHECK_FALSE(has(text, "\xC2\x9B"));
 }
 
+TEST_CASE("screen: no control characters in names and texts of values") {
+  std::string description = drive;
+  description.replace(description.find("Statusword"), 10, "St\x1b[2J\x07\xC2\x9B!");
+  description.replace(description.find("DataType=6\n"), 11, "DataType=9\n");  // a string
+  description.replace(description.find("0x60410010"), 10, "0x60410020");
+  Watched bus(description);
+  bus.state.set_name(5, "a\nb\x1b");
+  bus.frame(0x185, {'x', 0x1B, '\n', 0x9B, 1, 0, 0, 0});
+  for (const unsigned columns : {80U, 40U}) {
+    const std::string text = bus.text(columns);
+    CHECK(has(text, "St?[2J?"));
+    CHECK(has(text, "Velocity"));
+    for (const char c : text) {
+      CHECK((c == '\n' || (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F)));
+    }
+    CHECK_FALSE(has(text, "\xC2\x9B"));
+    CHECK(std::count(text.begin(), text.end(), '\n') == 24);
+  }
+  CHECK(has(bus.text(), "a?b?"));
+}
+
+TEST_CASE("screen: a small one has the number of nodes, all keys, and the whole help") {
+  Watched bus;
+  CHECK(bus.lines(40, 10).back() == "r w n s /  ? help  q quit");
+  for (std::uint32_t node = 1; node <= 127; ++node) {
+    bus.frame(0x700 + node, {0x05});
+  }
+  CHECK(bus.lines(40, 10)[1] == "node (1 of 127)         heard  EMCY");
+  CHECK(bus.lines(40, 12)[1] == "node (1-2 of 127)       heard  EMCY");
+  bus.view.selected = 127;
+  CHECK(bus.lines(40, 12)[1] == "node (126-127 of 127)   heard  EMCY");
+  bus.view.has_help = true;
+  CHECK(bus.lines(40, 10)[1] == "Up, Down, PgUp, PgDn  select a node");
+  CHECK(bus.lines(40, 10).back() == "Up, Down scroll; other keys end the help");
+  bus.view.help_line = 1;
+  CHECK(bus.lines(40, 10)[1] == "Left, Right           values that do");
+  bus.view.help_line = 1000;
+  CHECK(bus.lines(40, 10)[8] == "--type u16 behind an object: its type");
+  CHECK(draw(bus.state, bus.view, 40, 10).help_line < 10);
+  CHECK(bus.lines()[1] == "Up, Down, PgUp, PgDn  select a node");
+  CHECK(bus.lines().back() == "each key ends the help");
+}
+
 TEST_CASE("screen: wide and combining characters do not shift columns") {
   Watched bus;
   bus.frame(0x705, {0x05});

@@ -13,14 +13,6 @@ using host_bus::Micros;
 constexpr Micros measuring_time = 1'000'000;
 constexpr std::uint64_t overdue_periods = 3;
 constexpr std::size_t most_curve_points = 100;  // of a plot
-constexpr std::size_t longest_text = 512;
-
-/// Returns a text of a device or a file that can be shown in one line.
-std::string one_line(std::string text) {
-  text.resize(std::min(text.size(), longest_text));
-  std::replace(text.begin(), text.end(), '\n', '?');
-  return printable(text);
-}
 
 /// Returns the node that has sent a frame by the predefined connection set; 0: none. [301:7.3.5]
 std::uint8_t sender_of(const CO_IF_FRM& frame) {

@@ -14,6 +14,7 @@
 
 #include "describe/monitor.hpp"
 #include "describe/plot.hpp"
+#include "program/printable.hpp"
 
 namespace lexican::program {
 
@@ -26,8 +27,8 @@ struct LoggedEvent {
 
 /// Last value of an object in a PDO, and those before it.
 struct WatchedValue {
-  std::string name;
-  std::string text;
+  std::string name;  ///< may have control characters
+  std::string text;  ///< as the name
   host_bus::Micros time = 0;
   std::vector<describe::Point> points;  ///< of the last seconds, if it is a number; time since the first frame
 };
@@ -67,7 +68,7 @@ class BusState {
   void advance(host_bus::Micros now);
   /// Adds a line to the log that is not of a frame.
   void note(const std::string& text, bool is_fault);
-  void set_name(std::uint8_t node, const std::string& name) { nodes_[node].name = name; }
+  void set_name(std::uint8_t node, const std::string& name) { nodes_[node].name = one_line(name); }
 
   const WatchedNode& node(std::uint8_t node) const { return nodes_[node]; }
   bool is_described(std::uint8_t node) const { return network_.of(node).device() != nullptr; }

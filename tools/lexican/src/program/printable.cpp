@@ -44,6 +44,13 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string one_line(std::string_view text) {
+  constexpr std::size_t longest = 512;
+  std::string line(text.substr(0, longest));
+  std::replace(line.begin(), line.end(), '\n', '?');
+  return printable(line);
+}
+
 std::string state_text(std::uint8_t state) {
   switch (state) {
     case 0x00: return "boot-up";

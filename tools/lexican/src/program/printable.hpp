@@ -16,6 +16,9 @@ std::size_t length_of_character(std::string_view text);
 /// direction of writing), and of bytes that are not UTF-8.
 std::string printable(std::string_view text);
 
+/// Returns the begin of a text, at most 512 bytes, printable in one line: question marks in place of line ends, too.
+std::string one_line(std::string_view text);
+
 /// Returns the name of an NMT state as error control shows it; 0 is the boot-up message.
 std::string state_text(std::uint8_t state);
 

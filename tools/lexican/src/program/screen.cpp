@@ -14,7 +14,8 @@ using host_bus::Micros;
 
 constexpr std::size_t narrow = 60;  // columns below which less is shown
 
-constexpr const char* key_hint = "r read  w write  n NMT  s scan  / filter  ? help  q quit";
+constexpr const char* short_key_hint = "r w n s /  ? help  q quit";
+constexpr std::string_view key_hint = "r read  w write  n NMT  s scan  / filter  ? help  q quit";
 constexpr const char* help_text =
     "Up, Down, PgUp, PgDn  select a node\n"
     "Left, Right           values that do not fit\n"
@@ -188,8 +189,11 @@ class Drawing {
   }
 
   void add_help(std::size_t rows) {
-    for (const std::string& line : lines_of(help_text)) {
-      add(line);
+    const std::vector<std::string> lines = lines_of(help_text);
+    has_more_help_ = lines.size() > rows;
+    screen_.help_line = has_more_help_ ? std::min(view_.help_line, lines.size() - rows) : 0;
+    for (std::size_t n = screen_.help_line; n < lines.size(); ++n) {
+      add(lines[n]);
     }
     screen_.lines.resize(1 + rows);
   }
@@ -214,9 +218,12 @@ class Drawing {
     const std::size_t first = std::min(at > shown / 2 ? at - shown / 2 : 0, heard_.size() - shown);
     const std::size_t name = columns_ >= narrow ? (columns_ - 32) / 2 : 0;
     const std::size_t emergency = columns_ > 33 + name ? columns_ - 33 - name : 0;
-    const std::string more =
-        shown < heard_.size() ? fmt::format(" ({}-{} of {})", first + 1, first + shown, heard_.size()) : "";
-    add(fmt::format("node state              heard  {}", fit(name != 0 ? "last EMCY" : "last EMCY" + more, emergency)) +
+    const std::string more = shown >= heard_.size() ? std::string()
+                             : shown == 1           ? fmt::format(" ({} of {})", first + 1, heard_.size())
+                                          : fmt::format(" ({}-{} of {})", first + 1, first + shown, heard_.size());
+    // A narrow screen has space for the numbers only where the states are.
+    const std::string state = name != 0 || more.empty() ? "state" : more.substr(1);
+    add(fmt::format("node {:<19}heard  {}", state, fit(name != 0 ? "last EMCY" : "EMCY", emergency)) +
             (name != 0 ? "  name" + more : ""),
         Colour::title, true);
     if (heard_.empty()) {
@@ -286,7 +293,8 @@ class Drawing {
     }
     for (std::size_t row = 0; row < height; ++row) {
       const std::string text =
-          row == 0 ? fit(pdo + value.name, name) + " " + fit(value.text, rest - name - 1) : std::string(rest, ' ');
+          row == 0 ? fit(pdo + one_line(value.name), name) + " " + fit(one_line(value.text), rest - name - 1)
+                   : std::string(rest, ' ');
       screen_.lines.push_back({{text}, {plot == 0 ? "" : " " + curve[row], Colour::green}});
     }
   }
@@ -312,8 +320,13 @@ class Drawing {
   }
 
   void add_command() {
+    if (view_.prompt.empty() && view_.has_help) {
+      add(has_more_help_ ? "Up, Down scroll; other keys end the help" : "each key ends the help", Colour::title, true);
+      return;
+    }
     if (view_.prompt.empty()) {
-      add(view_.command.empty() ? key_hint : view_.command, Colour::title, true);
+      const std::string hint(key_hint.size() <= columns_ ? key_hint : short_key_hint);
+      add(view_.command.empty() ? hint : view_.command, Colour::title, true);
       return;
     }
     // The end of a long text is shown, where it is typed.
@@ -331,6 +344,7 @@ class Drawing {
   std::size_t rows_;
   std::vector<std::uint8_t> heard_;
   std::uint8_t selected_ = 0;
+  bool has_more_help_ = false;
   Screen screen_;
 };
 

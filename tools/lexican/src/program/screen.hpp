@@ -27,6 +27,7 @@ using ScreenLine = std::vector<Piece>;
 struct Screen {
   std::vector<ScreenLine> lines;   ///< as many as the terminal has, each of its columns at most
   std::optional<unsigned> cursor;  ///< column in the last line; nothing: no text is typed
+  std::size_t help_line = 0;       ///< of the help, the first one shown
 };
 
 /// Contents of the screen besides the state of the bus.
@@ -44,7 +45,8 @@ struct View {
   std::string prompt;   ///< empty: no text is typed
   std::string input;    ///< behind the prompt
   bool has_help = false;
-  bool has_unicode = true;  ///< the terminal shows UTF-8
+  std::size_t help_line = 0;  ///< of the help, the first one to be shown
+  bool has_unicode = true;    ///< the terminal shows UTF-8
 };
 
 /// Returns the node of the view, or the first one if it was not heard; 0: none was heard.

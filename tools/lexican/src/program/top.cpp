@@ -21,6 +21,7 @@ constexpr Micros shortest_between_screens = 100 * millisecond;
 constexpr Micros longest_between_screens = second;  // ages change
 constexpr Micros longest_receiving = 20 * millisecond;
 constexpr std::size_t nodes_in_page = 5;
+constexpr std::size_t help_lines_in_page = 5;
 constexpr std::size_t most_input = 200;
 constexpr std::uint32_t transfer_timeout = 1000;  // ms
 constexpr std::uint32_t state_timeout = 2000;
@@ -180,9 +181,11 @@ class Top : public Console {
     view_.condition = printable(!bus_.fault().empty() ? bus_.fault() : bus_.refusal());
     View view = view_;
     if (is_running_ && !is_asking_ && view.result.empty()) {
-      view.result = is_cancelled_ ? "is cancelled" : "runs; Esc cancels it";
+      view.result = is_cancelled_ ? "is cancelled" : "runs; Esc cancels it, q quits";
     }
-    terminal_.show(draw(state_, view, terminal_.columns(), terminal_.rows()));
+    const Screen screen = draw(state_, view, terminal_.columns(), terminal_.rows());
+    view_.help_line = screen.help_line;
+    terminal_.show(screen);
     drawn_ = host_bus::clock_now(CLOCK_MONOTONIC);
     is_changed_ = false;
   }
@@ -193,15 +196,28 @@ class Top : public Console {
     }
     if (is_asking_) {
       answer_ = key == 'y' || key == 'Y';
-    } else if (is_running_) {
-      is_cancelled_ = is_cancelled_ || key == escape_key;
+    } else if (is_running_ || command_key_ != '\0') {
+      is_ended_ = is_ended_ || key == 'q';
+      is_cancelled_ = is_cancelled_ || is_ended_ || key == escape_key;
       select(key);
     } else if (!view_.prompt.empty()) {
       edit(key);
     } else if (view_.has_help) {
-      view_.has_help = false;
+      view_.has_help = scroll_help(key);
     } else if (!select(key)) {
       begin_command(key);
+    }
+  }
+
+  /// \retval true  the key scrolls the help; the next screen limits the line
+  bool scroll_help(std::uint32_t key) {
+    std::size_t& line = view_.help_line;
+    switch (key) {
+      case up_key: line -= std::min<std::size_t>(line, 1); return true;
+      case down_key: ++line; return true;
+      case page_up_key: line -= std::min(line, help_lines_in_page); return true;
+      case page_down_key: line += help_lines_in_page; return true;
+      default: return false;
     }
   }
 
@@ -232,8 +248,11 @@ class Top : public Console {
     const bool has_node = node != 0;
     switch (key) {
       case 'q': is_ended_ = true; break;
-      case '?': view_.has_help = true; break;
-      case 's': command_key_ = 's'; break;
+      case '?':
+        view_.has_help = true;
+        view_.help_line = 0;
+        break;
+      case 's': request('s'); break;
       case '/': ask('/', "filter:", view_.filter); break;
       case 'n': ask('n', has_node ? fmt::format("NMT command for node {}:", node) : "NMT command and node:"); break;
       case 'r':
@@ -248,6 +267,12 @@ class Top : public Console {
         break;
       default: break;
     }
+  }
+
+  /// Lets run_command() run the command of a key. Until its end, further keys only cancel it, quit, or select.
+  void request(char key) {
+    command_key_ = key;
+    is_cancelled_ = false;
   }
 
   void ask(char key, const std::string& prompt, const std::string& input = {}) {
@@ -265,7 +290,7 @@ class Top : public Console {
       if (prompt_key_ == '/') {
         view_.filter = view_.input;
       } else if (!view_.input.empty()) {
-        command_key_ = prompt_key_;
+        request(prompt_key_);
       }
     } else if (key == up_key) {
       view_.input = inputs_[prompt_key_];
@@ -282,14 +307,13 @@ class Top : public Console {
   /// Runs the command of a key.
   void run_command() {
     const char key = std::exchange(command_key_, '\0');
-    if (key == '\0') {
+    if (key == '\0' || is_ended_) {
       return;
     }
     is_running_ = true;
-    is_cancelled_ = false;
     view_.result.clear();
     view_.is_result_fault = false;
-    CommandWords words = words_of(view_.input);
+    CommandWords words = key == 's' ? CommandWords() : words_of(view_.input);
     words.common = common_;
     words.common.eds.clear();  // the network has them
     int status = usage;
@@ -301,6 +325,7 @@ class Top : public Console {
       status = key == 'r' ? read(words) : key == 'w' ? write(words) : key == 'n' ? change_state(words) : scan();
     }
     view_.is_result_fault = status != ok;
+    update();  // keys that were typed meanwhile start no command
     is_running_ = false;
     is_cancelled_ = false;
     is_changed_ = true;
@@ -370,6 +395,10 @@ class Top : public Console {
   }
 
   int change_state(const CommandWords& words) {
+    if (words.words.size() > 2 || words.words.empty() || !words.options.empty()) {
+      print_message("give a command and one node-ID, such as start 5");
+      return usage;
+    }
     NmtOptions options;
     options.common = words.common;
     options.common.timeout = state_timeout;
