@@ -82,6 +82,38 @@ TEST_CASE("lexican: completion has the first line of an option's help") {
   CHECK(has(run({"man"}).out, "\n  replay:FILE: a log"));
 }
 
+namespace {
+
+/// Returns the words that bash offers as completion.
+std::string completed(const std::string& words) {
+  const Bench bench;
+  return bench
+      .run_shell("\"$0\" completion | bash -c 'source /dev/stdin; COMP_WORDS=(" + words +
+                 "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _lexican; echo \"${COMPREPLY[*]}\"'")
+      .out;
+}
+
+}  // namespace
+
+TEST_CASE("lexican: completion offers the words of arguments and options") {
+  CHECK(completed("lexican nmt \"\"") == "start stop preop reset reset-comm\n");
+  CHECK(completed("lexican lss s") == "scan\n");
+  CHECK(completed("lexican pdo wa") == "watch\n");
+  CHECK(completed("lexican completion z") == "zsh\n");
+  CHECK(completed("lexican mon --service em") == "emcy\n");
+  CHECK(completed("lexican read --type u1") == "u16\n");
+  CHECK(completed("lexican read -i sl") == "slcan: slcan-tcp: slcan-pty\n");
+  CHECK(completed("lexican scan --bus hu") == "hub:\n");
+  CHECK(completed("lexican nmt --ti") == "--timeout\n");
+  CHECK(completed("lexican nmt start 5") == "\n");  // bash completes files itself
+  CHECK(has(run({"completion", "zsh"}).out, "'1:command:(start stop preop reset reset-comm)'"));
+  CHECK(has(run({"completion", "zsh"}).out, "]:TEXT:(hub\\: "));
+  CHECK(has(run({"completion", "fish"}).out, " -x -a 'hub: "));
+  CHECK(has(run({"completion", "fish"}).out,
+            "complete -c lexican -n '__fish_seen_subcommand_from nmt; and not __fish_seen_subcommand_from start stop "
+            "preop reset reset-comm' -f -a 'start stop preop reset reset-comm'\n"));
+}
+
 TEST_CASE("lexican: an unknown verb is refused with the nearest one") {
   check(run({"scna"}), 2, "", "lexican: unknown verb scna; did you mean scan?\n");
   check(run({"frobnicate"}), 2, "", "lexican: unknown verb frobnicate; lexican --help lists all\n");

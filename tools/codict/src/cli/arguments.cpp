@@ -82,6 +82,11 @@ Option Option::one_of(std::vector<std::string> words) {
   return *this;
 }
 
+Option Option::suggest(std::vector<std::string> words) {
+  grammar_->words[option_] = std::move(words);
+  return *this;
+}
+
 Option Option::in_range(std::uint32_t least, std::uint32_t most) {
   option_->check(CLI::Range(least, most));
   return *this;

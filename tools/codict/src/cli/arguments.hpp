@@ -29,6 +29,9 @@ class Option {
   Option required();
   /// Rejects values that are not in the list.
   Option one_of(std::vector<std::string> words);
+  /// Sets the words that completion offers; a word that ends with a colon is the beginning of a value. Other values are
+  /// allowed.
+  Option suggest(std::vector<std::string> words);
   /// Rejects numbers outside the range and shows the range in the help.
   Option in_range(std::uint32_t least, std::uint32_t most);
   /// Rejects numbers outside the range; the help does not show it.
@@ -115,7 +118,7 @@ struct OptionText {
   std::string name;                      ///< name of a positional argument, else empty
   std::string type;                      ///< "TEXT", empty if it is a flag
   std::string help;
-  std::vector<std::string> words;  ///< values that it accepts, empty if there is no list
+  std::vector<std::string> words;  ///< values, or beginnings of values, for completion; empty if there is no list
   bool is_required = false;
 };
 

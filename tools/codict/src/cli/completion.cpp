@@ -23,22 +23,56 @@ std::string long_names(const CommandText& command) {
   return names;
 }
 
-// Completes a command as first word, then options, else files as bash does by default.
+// Returns the first positional argument of a command if it has a list of words, else null.
+const OptionText* first_words(const CommandText& command) {
+  for (const OptionText& option : command.options) {
+    if (!option.name.empty()) {
+      return option.words.empty() ? nullptr : &option;
+    }
+  }
+  return nullptr;
+}
+
+// Completes a command as first word, then options and the words of arguments, else files as bash does by default.
 constexpr std::string_view bash_head = R"(() {
   local word=${COMP_WORDS[COMP_CWORD]} words=
   COMPREPLY=()
-  if [ "$COMP_CWORD" -gt 1 ]; then
-    case $word in
-      -*) ;;
-      *) return ;;
-    esac
-    case ${COMP_WORDS[1]} in
+  if [ "$COMP_CWORD" -gt 1 ] && [[ $word != -* ]]; then
+    case ${COMP_WORDS[1]}:${COMP_WORDS[COMP_CWORD - 1]} in
 )";
+
+// Returns the cases of a command and the word before the one that is completed: "      lss:lss) words='scan …' ;;".
+std::string bash_values(const CommandText& command) {
+  std::string cases;
+  const auto add = [&](const std::string& before, const OptionText& option) {
+    cases += fmt::format("      {}:{}) words='{}' ;;\n", command.name, before, fmt::join(option.words, " "));
+  };
+  if (const OptionText* const first = first_words(command); first != nullptr) {
+    add(command.name, *first);
+  }
+  for (const OptionText& option : command.options) {
+    for (const std::string& name : option.short_names) {
+      option.words.empty() ? void() : add("-" + name, option);
+    }
+    for (const std::string& name : option.long_names) {
+      option.words.empty() ? void() : add("--" + name, option);
+    }
+  }
+  return cases;
+}
 
 std::string bash_completion(const CommandLine& line) {
   const std::string program = line.describe().name;
   std::string script = fmt::format("# Completion of {0} in bash.\n_{0}{1}", program, bash_head);
   std::string names;
+  for (const CommandText& command : line.describe_commands()) {
+    script += bash_values(command);
+  }
+  script += R"(      *) return ;;
+    esac
+  elif [ "$COMP_CWORD" -gt 1 ]; then
+    case ${COMP_WORDS[1]} in
+)";
   for (const CommandText& command : line.describe_commands()) {
     script += fmt::format("      {}) words='{}' ;;\n", command.name, long_names(command));
     names += command.name + " ";
@@ -48,6 +82,7 @@ std::string bash_completion(const CommandLine& line) {
     words='{0}{1}'
   fi
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+  [[ ${{COMPREPLY[0]-}} != *: ]] || compopt -o nospace 2>/dev/null
 }}
 complete -o bashdefault -o default -F _{2} {2}
 )",
@@ -78,7 +113,7 @@ std::string zsh_word(std::string_view text) {
 // Returns the completion of an option's values: its words, nothing for numbers, else files.
 std::string zsh_values(const OptionText& option) {
   if (!option.words.empty()) {
-    return fmt::format(":{}:({})", option.type, fmt::join(option.words, " "));
+    return fmt::format(":{}:({})", option.type, escaped(fmt::format("{}", fmt::join(option.words, " ")), ":"));
   }
   return fmt::format(":{}:{}", option.type, option.type == "UINT" ? " " : "_files");
 }
@@ -122,6 +157,9 @@ std::string zsh_completion(const CommandLine& line) {
     cases += fmt::format("    {})\n      _arguments \\\n", command.name);
     for (const OptionText& option : command.options) {
       cases += zsh_option(option);
+    }
+    if (const OptionText* const first = first_words(command); first != nullptr) {
+      cases += fmt::format("        '1:{}:({})' \\\n", first->name, fmt::join(first->words, " "));
     }
     cases += "        '*:file:_files' ;;\n";
   }
@@ -169,6 +207,12 @@ std::string fish_completion(const CommandLine& line) {
   for (const CommandText& command : line.describe_commands()) {
     script += fmt::format("complete -c {} -n __fish_use_subcommand -f -a {} -d {}\n", program, command.name,
                           fish_word(command.help));
+    if (const OptionText* const first = first_words(command); first != nullptr) {
+      const std::string words = fmt::format("{}", fmt::join(first->words, " "));
+      script += fmt::format(
+          "complete -c {0} -n '__fish_seen_subcommand_from {1}; and not __fish_seen_subcommand_from {2}' -f -a '{2}'\n",
+          program, command.name, words);
+    }
     for (const OptionText& option : command.options) {
       script += fish_option(program, option, fmt::format("'__fish_seen_subcommand_from {}'", command.name));
     }

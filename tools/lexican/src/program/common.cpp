@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bus/clock.hpp"
 #include "program/rate.hpp"
@@ -28,10 +29,14 @@ Console::~Console() { console = nullptr; }
 
 void add_bus_options(Arguments& arguments, Common& common) {
   std::string kinds;
+  std::vector<std::string> prefixes;
   for (const host_bus::BusKind& kind : host_bus::bus_kinds) {
+    if (kind.prefix[0] != '\0') {
+      prefixes.emplace_back(kind.prefix);
+    }
     kinds += fmt::format("\n  {}: {}", kind.example, kind.about);
   }
-  arguments.add_option("-i,--bus", common.bus, "Bus; default: $LEXICAN_BUS" + kinds);
+  arguments.add_option("-i,--bus", common.bus, "Bus; default: $LEXICAN_BUS" + kinds).suggest(std::move(prefixes));
   arguments.add_option("--rate", common.rate, "Bit rate of an adapter, such as 500k; default: found by listening");
   arguments.add_flag("--yes", common.is_sure, "Do not ask before a command that can disturb a physical bus");
   arguments.add_flag("--json", common.is_json, "Print one JSON object in each line");

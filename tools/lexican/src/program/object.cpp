@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <utility>
 
 #include "program/identity.hpp"
 #include "program/session.hpp"
@@ -198,9 +199,16 @@ void add_transfer_options(Arguments& arguments, TransferOptions& options) {
   add_node_option(arguments, options.common);
   add_eds_option(arguments, options.common);
   add_timeout_option(arguments, options.common, 1000);
-  arguments.add_option(
-      "--type", options.type,
-      "Type of the value: " + std::string(value_type_names) + "; default: that of the description, or of CiA 301");
+  std::vector<std::string> types = {"bool", "string", "bytes", "domain", "r32", "r64"};
+  for (unsigned bits = 8; bits <= 64; bits += 8) {
+    types.push_back("u" + std::to_string(bits));
+    types.push_back("i" + std::to_string(bits));
+  }
+  arguments
+      .add_option(
+          "--type", options.type,
+          "Type of the value: " + std::string(value_type_names) + "; default: that of the description, or of CiA 301")
+      .suggest(std::move(types));
 }
 
 std::string exceeded_limits(const codict::Entry& entry, std::uint8_t node, const codict::Integer& value) {
