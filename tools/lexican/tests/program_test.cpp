@@ -743,6 +743,19 @@ TEST_CASE("lexican nmt: the state of a device without heartbeat is unknown") {
   check(bench.run("nmt", {"start", "200"}), 2, "", "lexican: '200' is no node-ID, which is 1 to 127, or all\n");
 }
 
+TEST_CASE("lexican nmt: the state of a device without heartbeat is unknown after its boot-up message") {
+  Bench bench{5};
+  Process mon(bench.line("mon", {"--all"}), bench.environment());
+  CHECK(bench.run("read", {"5", "1008"}).status == 0);
+  mon.wait_for("SD-400");
+  Process nmt(bench.line("nmt", {"start", "12", "--timeout", "3000"}), bench.environment());
+  mon.wait_for("NMT start");
+  bench.add(12);
+  check(nmt.finish(), 0, "",
+        "lexican: sent; node 12 has sent no heartbeat, so its state is unknown; lexican write 12 1017 1000 switches it "
+        "on\n");
+}
+
 TEST_CASE("lexican nmt: a heartbeat that is slower than --timeout is waited for") {
   const Bench bench{5};
   CHECK(bench.run("write", {"5", "1017", "4000"}).status == 0);

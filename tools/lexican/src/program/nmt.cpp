@@ -11,12 +11,15 @@
 namespace lexican::program {
 namespace {
 
+constexpr std::uint8_t boot_up_state = 0x00;
 constexpr std::uint8_t stopped_state = 0x04;
 
 constexpr StateCommand commands[] = {
-    {"start", CO_NMT_COMMAND_START, 0x05},          {"stop", CO_NMT_COMMAND_STOP, stopped_state},
-    {"preop", CO_NMT_COMMAND_PREOP, 0x7F},          {"reset", CO_NMT_COMMAND_RESET_NODE, 0x00},
-    {"reset-comm", CO_NMT_COMMAND_RESET_COM, 0x00},
+    {"start", CO_NMT_COMMAND_START, 0x05},
+    {"stop", CO_NMT_COMMAND_STOP, stopped_state},
+    {"preop", CO_NMT_COMMAND_PREOP, 0x7F},
+    {"reset", CO_NMT_COMMAND_RESET_NODE, boot_up_state},
+    {"reset-comm", CO_NMT_COMMAND_RESET_COM, boot_up_state},
 };
 
 /// Waits until an adapter has the whole command, and for its answer.
@@ -70,15 +73,20 @@ int report_unknown(std::uint8_t node, const StateCommand& command, std::uint32_t
 /// \a before: what was read before the command; nothing: it is read if there is no heartbeat.
 int report_state(Session& session, std::uint8_t node, const StateCommand& command, const Common& common,
                  const std::optional<HeartbeatTime>& before) {
-  std::uint8_t last = wait_for_state(session, node, command.state, common.timeout * millisecond);
-  const bool has_heartbeat = command.state != 0;
+  const bool has_heartbeat = command.state != boot_up_state;
+  // A boot-up message is no heartbeat: a device that has booted meanwhile may send none.
+  const auto wait = [&](Micros time) {
+    const std::uint8_t state = wait_for_state(session, node, command.state, time);
+    return has_heartbeat && state == boot_up_state ? no_state : state;
+  };
+  std::uint8_t last = wait(common.timeout * millisecond);
   HeartbeatTime heartbeat{true, std::nullopt};
   if (last == no_state && has_heartbeat && !session.host().interrupted()) {
     heartbeat = before ? *before : read_heartbeat_time(session, common.timeout);
     const std::uint32_t time = heartbeat.time.value_or(0);
     if (time != 0) {
       print_note(fmt::format("waiting for the heartbeat of node {}, which it sends every {} ms", node, time));
-      last = wait_for_state(session, node, command.state, (time + time / 2) * millisecond);
+      last = wait((time + time / 2) * millisecond);
     }
   }
   if (session.is_interrupted()) {
