@@ -580,6 +580,20 @@ TEST_CASE("lexican read, write: a domain of 100 KB has the same bytes in both di
   check(bench.run("read", {"5", "2005", "--eds", eds}), 0, "2005h Label = \"\" (string)\n", "");
 }
 
+TEST_CASE("lexican write: the default time-out is long enough for a block on a slow bus") {
+  const Bench bench;
+  const std::string slow = bench.hub() + "-slow@10k";
+  Process device({LEXICAN_TEST_DEVICE, slow, "5"}, bench.environment());
+  device.wait_for("ready");
+  const std::string file = bench.directory / "program";
+  write_bytes(file, std::string(1000, 'x'));
+  const Words words = {LEXICAN_PROGRAM, "write", "5", "2009", "--file", file, "-i", slow};
+  check(Process(words, bench.environment()).finish(), 0, "2009h:00, 1000 bytes\n", "");
+  Words hurried = words;
+  hurried.insert(hurried.end(), {"--timeout", "500"});
+  CHECK(Process(hurried, bench.environment()).finish().status == 3);
+}
+
 TEST_CASE("lexican read: control characters of a device do not reach the terminal") {
   const Bench bench{5};
   check(bench.run("write", {"5", "2005", "61 1B 5B 33 31 6D 7F", "--type", "bytes"}), 0,

@@ -70,7 +70,20 @@ bool place_node(const Common& common, const std::vector<std::optional<std::strin
 void add_timeout_option(Arguments& arguments, Common& common, std::uint32_t time) {
   common.timeout = time;
   arguments.add_option("--timeout", common.timeout, fmt::format("Time for each answer in ms; default: {}", time))
-      .in_hidden_range(1, 3'600'000);
+      .in_hidden_range(1, 3'600'000)
+      .check([&common](const std::string&) {
+        common.has_timeout = true;
+        return std::string();
+      });
+}
+
+void extend_timeout(Common& common, const host_bus::Bus& bus) {
+  constexpr std::uint32_t slow = 50'000;              // bit/s
+  constexpr std::uint32_t bits_of_block = 127 * 135;  // with as many stuff bits as possible
+  const std::uint32_t rate = bus.bit_rate();
+  if (!common.has_timeout && rate != 0 && rate < slow) {
+    common.timeout += 2 * bits_of_block * 1000 / rate;  // other frames may take half of the bus
+  }
 }
 
 namespace {

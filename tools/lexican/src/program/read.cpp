@@ -113,6 +113,7 @@ int run_read(ReadOptions& options) {
   if (bus == nullptr) {
     return status;
   }
+  extend_timeout(options.common, *bus);
   Session session(std::move(bus), target.node);
   return read_object(session, options, target);
 }

@@ -58,6 +58,7 @@ struct Common {
   std::string rate;              ///< --rate: 500k, 1M or 500000
   std::vector<std::string> eds;  ///< --eds
   std::uint32_t timeout = 0;     ///< --timeout, ms
+  bool has_timeout = false;      ///< --timeout is given
   bool is_json = false;          ///< --json
   bool is_sure = false;          ///< --yes
   std::string node;              ///< -n, instead of the first positional argument
@@ -75,6 +76,8 @@ void add_node_option(Arguments& arguments, Common& common);
 bool place_node(const Common& common, const std::vector<std::optional<std::string>*>& words);
 /// Adds --timeout. \a time: the default in ms.
 void add_timeout_option(Arguments& arguments, Common& common, std::uint32_t time);
+/// Extends the default of --timeout on a slow bus, where a block of 127 segments takes longer.
+void extend_timeout(Common& common, const host_bus::Bus& bus);
 
 /// Opens the bus of -i. The bit rate of an adapter without --rate and @RATE is found by listening. Prints the reason if
 /// that fails, and sets \a status.

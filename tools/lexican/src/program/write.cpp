@@ -141,6 +141,9 @@ int run_write(WriteOptions& options) {
   if (bus == nullptr) {
     return status;
   }
+  if (!options.file.empty()) {
+    extend_timeout(options.common, *bus);
+  }
   Session session(std::move(bus), target.node);
   return write_object(session, options, target, target.is_found ? std::optional(data) : std::nullopt);
 }
