@@ -1542,8 +1542,8 @@ TEST_CASE("lexican lss: a device that refuses the bit rate") {
     if (!rate.empty()) {
       bench.pace(rate);
     }
-    Process& first = bench.add(255, "serial=A7");
-    bench.add_kinds(255, {"serial=A8", "refuses-rate"});
+    Process& first = bench.add(5, "serial=A7");
+    bench.add_kinds(6, {"serial=A8", "refuses-rate"});
     check(
         bench.run("lss", {"rate", "250k", "--store"}), 1, "",
         "lexican: " + name + "8 does not accept the bit rate; none was switched\nlexican: LSS: refused with error 1\n" +
@@ -1551,7 +1551,8 @@ TEST_CASE("lexican lss: a device that refuses the bit rate") {
                  ? "lexican: " + name + "7 has 250 kbit/s for the next activation; lexican lss rate gives it another\n"
                  : ""));
     first.send(SIGTERM);
-    CHECK(first.finish().out == (rate.empty() ? "ready\nrate 250000\n" : "ready\nrate 250000\nrate 500000\n"));
+    CHECK(first.finish().out ==
+          (rate.empty() ? "ready\nrequest\nrate 250000\n" : "ready\nrequest\nrate 250000\nrate 500000\n"));
   }
 }
 
@@ -1563,8 +1564,8 @@ TEST_CASE("lexican lss: a device that refuses to store") {
     if (!rate.empty()) {
       bench.pace(rate);
     }
-    Process& first = bench.add(255, "serial=A7");
-    bench.add_kinds(255, {"serial=A8", "refuses-store"});
+    Process& first = bench.add(5, "serial=A7");
+    bench.add_kinds(6, {"serial=A8", "refuses-store"});
     check(bench.run("lss", {"rate", "250k", "--store"}), 1, "",
           "lexican: " + name +
               "8 does not store the bit rate; none was switched\nlexican: LSS: refused with error 1\n" +
@@ -1573,14 +1574,17 @@ TEST_CASE("lexican lss: a device that refuses to store") {
                                   "8 has 250 kbit/s for the next activation; lexican lss rate gives it another\n"
                             : ""));
     first.send(SIGTERM);
-    CHECK(first.finish().out == (rate.empty() ? "ready\nrate 250000\nstored 250000\n"
-                                              : "ready\nrate 250000\nstored 250000\nrate 500000\nstored 500000\n"));
-    check(bench.run("lss", {"assign", "A8=7", "--store"}), 1, "",
-          "lexican: " + name +
-              "8 has node-ID 7 until its next reset; it did not store it\n"
-              "lexican: LSS: refused with error 1\n");
-    CHECK(has(bench.run("lss", {"info", "-n", "7"}).out, "node-ID          7\n"));
+    CHECK(first.finish().out == (rate.empty()
+                                     ? "ready\nrequest\nrate 250000\nstored 250000\n"
+                                     : "ready\nrequest\nrate 250000\nstored 250000\nrate 500000\nstored 500000\n"));
   }
+  Bench bench;
+  bench.add_kinds(255, {"serial=A9", "refuses-store"});
+  check(bench.run("lss", {"assign", name + "9=7", "--store"}), 1, "",
+        "lexican: " + name +
+            "9 has node-ID 7 until its next reset; it did not store it\n"
+            "lexican: LSS: refused with error 1\n");
+  CHECK(has(bench.run("lss", {"info", "-n", "7"}).out, "node-ID          7\n"));
 }
 
 TEST_CASE("lexican lss: a node that answers each request, and options of another command") {
