@@ -3,15 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 
-#include "client/sdo_client.hpp"
 #include "frame_bits.hpp"
 #include "program_bench.hpp"
-#include "simulate/simulation.hpp"
-#include "virtual_network.hpp"
+#include "simulated_devices.hpp"
 
 namespace {
 
@@ -20,18 +16,6 @@ using simulate::Device;
 
 const std::string clock_eds = LEXICAN_TOOL_DIR "/../../demo/clock/generated/clock.eds";
 const std::string simulated_eds = LEXICAN_TOOL_DIR "/tests/fixtures/device.eds";
-
-std::string bytes_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-describe::Description description_of(const std::string& path) {
-  std::string why;
-  const std::optional<describe::Description> description = describe::read_description(path, why);
-  REQUIRE_MESSAGE(description.has_value(), why);
-  return *description;
-}
 
 /// A simulated device as node 5, and a client.
 struct SimulatedBus {
@@ -161,92 +145,6 @@ TEST_CASE("simulate: each readable description of the fixtures starts, and its e
   CHECK(devices > 60);
   CHECK(entries > 500);
 }
-
-/// A virtual bus as that of a simulation.
-class VirtualGround : public simulate::Ground {
- public:
-  explicit VirtualGround(VirtualNetwork& network) : network_(network) {}
-  Can add_can() override { return network_.attach(); }
-  Timer add_timer() override { return network_.add_timer(); }
-  Micros now() override { return network_.now(); }
-
- private:
-  VirtualNetwork& network_;
-};
-
-/// Finds an object by its index in four hexadecimal digits.
-bool find_by_index(const std::string& word, const describe::Description&, std::uint16_t& index, std::uint8_t& sub_index,
-                   std::string& why) {
-  index = static_cast<std::uint16_t>(std::stoul(word, nullptr, 16));
-  sub_index = 0;
-  why = "";
-  return true;
-}
-
-/// Some simulated devices, a client of the first one, and all frames of the bus.
-struct SimulatedDevices {
-  SimulatedDevices(const std::string& path, std::uint8_t node, unsigned count, std::uint64_t seed = 1)
-      : simulation(ground, setup_of(path, node, count, seed), find_by_index) {
-    REQUIRE(simulation.start() == "");
-    network.run([this] { return simulation.process(); });
-    if (node <= 127) {
-      client.emplace(network, node, [this](bool is_received, const CO_IF_FRM& frame) {
-        if (is_received) {
-          frames.push_back(frame);
-        }
-      });
-    }
-  }
-  static simulate::SimulationSetup setup_of(const std::string& path, std::uint8_t node, unsigned count,
-                                            std::uint64_t seed) {
-    simulate::SimulationSetup setup;
-    setup.description = description_of(path);
-    setup.file = bytes_of_file(path);
-    setup.node_id = node;
-    setup.count = count;
-    setup.seed = seed;
-    return setup;
-  }
-  /// Executes commands, which must have no fault.
-  void run(const std::string& line) {
-    bool is_fault = false;
-    const std::string answer = simulation.execute(line, is_fault);
-    CHECK_MESSAGE(!is_fault, line << ": " << answer);
-  }
-  std::string fault_of(const std::string& line) {
-    bool is_fault = false;
-    const std::string answer = simulation.execute(line, is_fault);
-    CHECK(is_fault);
-    return answer;
-  }
-  void pass(Micros time) {
-    const Micros end = network.now() + time;
-    while (network.now() < end) {
-      client->sdo().upload(0x1001, 0, {SdoClient::small, 20, {}});
-      network.wait(millisecond);
-    }
-  }
-  std::string read(std::uint16_t index) {
-    const Transfer transfer = client->sdo().upload(index, 0, {SdoClient::small, 100, {}});
-    return transfer.done() ? simulation.device(0).description().show(index, 0, transfer.data) : transfer.outcome();
-  }
-  /// Returns the data of the frames with an identifier, "4310 09; 0000 00".
-  std::vector<Bytes> received(std::uint32_t id) const {
-    std::vector<Bytes> data;
-    for (const CO_IF_FRM& frame : frames) {
-      if (frame.Identifier == id) {
-        data.emplace_back(frame.Data, frame.Data + frame.DLC);
-      }
-    }
-    return data;
-  }
-
-  VirtualNetwork network;
-  VirtualGround ground{network};
-  simulate::Simulation simulation;
-  std::vector<CO_IF_FRM> frames;
-  std::optional<DeviceClient> client;
-};
 
 TEST_CASE("simulate: commands set values, and let them change") {
   SimulatedDevices bus(simulated_eds, 5, 1);

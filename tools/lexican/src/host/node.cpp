@@ -74,6 +74,8 @@ Node::Node(Setup setup) : tap_{setup.can, std::move(setup.observer), setup.obser
   extension_.Nvm = setup.memory.driver;
   extension_.NvmCtx = setup.memory.context;
   extension_.EmcyNum = setup.errors.number;
+  extension_.Callbacks = setup.callbacks;
+  extension_.User = setup.user;
 
   CO_NODE_SPEC spec{};
   spec.NodeId = setup.node_id;

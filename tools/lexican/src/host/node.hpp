@@ -28,6 +28,8 @@ class Node {
     bool observes_all = false;  // the observer is also called for frames that the node does not receive
     Errors errors = {};
     Memory memory = {};  // byte-writable; without it nothing is stored
+    const CO_CALLBACKS* callbacks = nullptr;
+    void* user = nullptr;  // of the callbacks
   };
 
   static constexpr std::uint32_t ticks_per_second = second;

@@ -5,6 +5,23 @@
 
 namespace lexican::simulate {
 
+const CO_CALLBACKS Device::callbacks = [] {
+  CO_CALLBACKS functions{};
+  functions.ModeChange = [](CO_NODE*, void* user, CO_MODE mode) {
+    Events& events = static_cast<Device*>(user)->events_;
+    events.was_reset = events.was_reset || mode == CO_INIT;
+    events.is_separated = events.is_separated || mode == CO_STOP;
+  };
+  functions.HbConsEvent = [](CO_NODE*, void* user, std::uint8_t) {
+    static_cast<Device*>(user)->events_.is_separated = true;
+  };
+  functions.LifeGuardEvent = [](CO_NODE*, void* user, bool occurred) {
+    Events& events = static_cast<Device*>(user)->events_;
+    events.is_separated = events.is_separated || occurred;
+  };
+  return functions;
+}();
+
 Device::Device(const describe::Description& description, const std::string& file, const DeviceSetup& setup)
     : description_(description), dictionary_(*description.device(), file), setup_(setup) {
   if (setup_.serial != 0) {
@@ -38,15 +55,19 @@ void Device::make_node() {
                                              {},
                                              false,
                                              has_emergency ? Errors{&emergency_, 1} : Errors{nullptr, 0},
-                                             memory});
+                                             memory,
+                                             &callbacks,
+                                             this});
 }
 
-bool Device::set(std::uint16_t index, std::uint8_t sub_index, const Bytes& value) {
+bool Device::put(std::uint16_t index, std::uint8_t sub_index, const Bytes& value, bool is_event) {
   CO_OBJ* const object = CODictFind(&node_->stack().Dict, CO_DEV(index, sub_index));
   if (object == nullptr || !dictionary_.write(*object, node_->stack(), value)) {
     return false;
   }
-  COTPdoTrigObj(node_->stack().TPdo, object);
+  if (is_event) {
+    COTPdoTrigObj(node_->stack().TPdo, object);
+  }
   return true;
 }
 
@@ -66,6 +87,12 @@ void Device::raise(std::uint16_t code) {
                                {8, CO_EMCY_REG_COM},
                                {15, CO_EMCY_REG_MANUFACTURER}};
   COEmcyClr(&node_->stack().Emcy, 0);
+  const std::uint16_t axis_codes = 0x8600;  // of CiA 402: positioning controller
+  if ((code & 0xFF00) == axis_codes) {
+    emergency_ = {CO_EMCY_REG_PROFILE, code};
+    COEmcySet(&node_->stack().Emcy, 0, nullptr);
+    return;
+  }
   const auto* const found =
       std::find_if(std::begin(classes), std::end(classes), [&](const Class& row) { return row.code == code >> 12; });
   emergency_ = {found != std::end(classes) ? found->reg : std::uint8_t{CO_EMCY_REG_GENERAL}, code};
@@ -77,6 +104,7 @@ void Device::clear() { COEmcyClr(&node_->stack().Emcy, 0); }
 void Device::power_cycle() {
   node_.reset();
   make_node();
+  events_.was_reset = true;
   CONodeStart(&node_->stack());
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "co_nvm_ram.h"
 #include "describe/description.hpp"
@@ -42,7 +43,11 @@ class Device {
   /// Sets an object from inside the device, as its application does: access rights and limits of the bus do not count.
   /// A TPDO that maps it is sent, if its transmission type is event-driven.
   /// \retval false  there is no such object, or the value has another length
-  bool set(std::uint16_t index, std::uint8_t sub_index, const Bytes& value);
+  bool set(std::uint16_t index, std::uint8_t sub_index, const Bytes& value) {
+    return put(index, sub_index, value, true);
+  }
+  /// Does the same. \a is_event: the TPDOs are sent
+  bool put(std::uint16_t index, std::uint8_t sub_index, const Bytes& value, bool is_event);
   /// Returns the value of an object; nothing: it is none, or longer than 8 bytes.
   std::optional<Bytes> get(std::uint16_t index, std::uint8_t sub_index);
 
@@ -53,7 +58,15 @@ class Device {
   /// Resets the node as after a power cycle: values that are not stored get their defaults.
   void power_cycle();
 
+  /// What has happened to the node since the last call.
+  struct Events {
+    bool was_reset;     ///< NMT reset, or power cycle
+    bool is_separated;  ///< NMT stop, or no heartbeat or guarding any more
+  };
+  Events take_events() { return std::exchange(events_, {}); }
+
  private:
+  static const CO_CALLBACKS callbacks;
   void make_node();
 
   describe::Description description_;
@@ -64,6 +77,7 @@ class Device {
   co::FileNvm file_;
   CO_EMCY_TBL emergency_{};
   std::string fault_;
+  Events events_{};
   std::unique_ptr<Node> node_;
 };
 

@@ -546,6 +546,7 @@ CO_OBJ Dictionary::plain(const CO_OBJ& object) const {
 
 bool Dictionary::write(CO_OBJ& object, CO_NODE& node, const Bytes& value) {
   CO_OBJ copy = plain(object);
+  copy.Key &= ~static_cast<std::uint32_t>(CO_OBJ___A___);  // the caller decides whether TPDOs are sent
   Bytes bytes = value;
   const auto size = static_cast<std::uint32_t>(bytes.size());
   const bool is_direct = (object.Key & CO_OBJ_D_____) != 0;
