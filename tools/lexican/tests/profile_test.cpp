@@ -187,4 +187,154 @@ TEST_CASE("drive: modes that 6502h does not have are ignored, and resets reset t
   CHECK(bus.status() == 0x0218);
 }
 
+TEST_CASE("drive: profile position with set-points, acknowledge and target reached") {
+  ProfileBus bus(servo_eds);
+  bus.enable(1);
+  CHECK(bus.status() == 0x0637);
+  bus.write(0x607A, 500, 4);
+  bus.control(0x1F);
+  CHECK(bus.status() == 0x1237);  // acknowledged, on the way
+  bus.control(0x0F);
+  CHECK(bus.status() == 0x0237);
+  bus.pass(250 * millisecond);
+  CHECK(bus.number(0x606C) == 1000);  // profile velocity
+  bus.pass(600 * millisecond);
+  CHECK(bus.number(0x6064) == 500);
+  CHECK(bus.number(0x606C) == 0);
+  CHECK(bus.status() == 0x0637);
+  bus.control(0x5F);  // relative
+  bus.control(0x0F);
+  bus.pass(50 * millisecond);
+  bus.write(0x607A, 100, 4);
+  bus.control(0x1F);  // waits
+  bus.control(0x0F);
+  CHECK(bus.status() == 0x1237);  // no place for another one
+  bus.write(0x607A, 77, 4);
+  bus.control(0x1F);
+  bus.control(0x0F);
+  bus.pass(700 * millisecond);
+  CHECK(bus.number(0x6064) > 900);
+  bus.pass(2000 * millisecond);
+  CHECK(bus.number(0x6064) == 100);
+  CHECK(bus.status() == 0x0637);
+  bus.write(0x607A, 5000, 4);
+  bus.control(0x3F);
+  bus.control(0x2F);
+  bus.pass(300 * millisecond);
+  bus.write(0x607A, 0, 4);
+  bus.control(0x3F);  // immediately
+  bus.pass(1500 * millisecond);
+  CHECK(bus.number(0x6064) == 0);
+  CHECK(bus.status() == 0x1637);
+  bus.control(0x0F);
+  CHECK(bus.status() == 0x0637);
+}
+
+TEST_CASE("drive: profile position with halt, software limits, and without motion at the target") {
+  ProfileBus bus(servo_eds);
+  bus.write(0x607D, -1000, 4, 1);
+  bus.write(0x607D, 300, 4, 2);
+  bus.enable(1);
+  bus.write(0x607A, 2000, 4);
+  bus.control(0x1F);
+  CHECK(bus.status() == 0x1A37);  // internal limit active
+  bus.pass(100 * millisecond);
+  bus.control(0x11F);
+  bus.pass(300 * millisecond);
+  CHECK(bus.number(0x606C) == 0);
+  CHECK((bus.status() & 0x0400) != 0);  // stopped by halt
+  const std::int64_t place = bus.number(0x6064);
+  CHECK(place < 300);
+  bus.control(0x1F);
+  bus.pass(600 * millisecond);
+  CHECK(bus.number(0x6064) == 300);
+  bus.control(0x0F);
+  CHECK(bus.status() == 0x0E37);
+  bus.write(0x607A, 300, 4);
+  bus.control(0x1F);
+  bus.pass(50 * millisecond);
+  CHECK(bus.status() == 0x1637);
+}
+
+TEST_CASE("drive: homing") {
+  ProfileBus bus(servo_eds);
+  bus.run("set 6064 1234");
+  bus.write(0x607C, -20, 4);
+  bus.enable(6);
+  CHECK(bus.status() == 0x0637);
+  bus.control(0x1F);
+  CHECK(bus.status() == 0x1637);  // attained, target reached
+  CHECK(bus.number(0x6064) == -20);
+  bus.control(0x0F);
+  bus.write(0x6098, 17, 1);
+  bus.control(0x1F);
+  CHECK(bus.status() == 0x0237);  // in progress
+  bus.pass(100 * millisecond);
+  CHECK(bus.number(0x606C) == -500);
+  bus.pass(300 * millisecond);
+  CHECK(bus.status() == 0x1637);
+  CHECK(bus.number(0x6064) == -20);
+  bus.control(0x0F);
+  bus.control(0x1F);
+  bus.pass(50 * millisecond);
+  bus.control(0x0F);  // interrupted
+  bus.pass(100 * millisecond);
+  CHECK(bus.status() == 0x0637);
+  bus.write(0x6098, 0, 1);
+  bus.control(0x1F);
+  CHECK((bus.status() & 0x3000) == 0x2000);  // homing error
+}
+
+TEST_CASE("drive: cyclic synchronous position with SYNC, and velocity") {
+  ProfileBus bus(servo_eds);
+  bus.write(0x6060, 8, 1);
+  bus.master_starts();
+  for (const std::uint8_t word : {std::uint8_t{0x06}, std::uint8_t{0x07}, std::uint8_t{0x0F}}) {
+    bus.frame(0x305, {word, 0, 0, 0, 0, 0});
+    bus.frame(0x080, {});
+  }
+  bus.frame(0x080, {});
+  CHECK((bus.status() & 0x106F) == 0x1027);  // follows the command value
+  bus.frames.clear();
+  for (std::uint8_t n = 1; n <= 5; ++n) {
+    bus.frame(0x305, {0x0F, 0, static_cast<std::uint8_t>(10 * n), 0, 0, 0});
+    bus.frame(0x080, {});
+    bus.pass(5 * millisecond);
+    CHECK(bus.number(0x6064) == 10 * n);
+  }
+  bus.frame(0x080, {});
+  CHECK(bus.received(0x285).back() == Bytes{0x37, 0x12, 50, 0, 0, 0});
+  bus.write(0x6060, 9, 1);
+  bus.write(0x60FF, -3000, 4);
+  bus.pass(5 * millisecond);
+  CHECK(bus.number(0x606C) == -3000);
+  bus.pass(100 * millisecond);
+  CHECK(bus.number(0x6064) < -250);
+}
+
+TEST_CASE("drive: a following error beyond its window and time is a fault") {
+  ProfileBus bus(servo_eds);
+  bus.enable(1);
+  bus.run("set 6064 -100");  // held
+  bus.pass(50 * millisecond);
+  CHECK(bus.number(0x60F4) == 100);
+  CHECK((bus.status() & 0x204F) == 0x0007);
+  bus.write(0x607A, 5000, 4);
+  bus.control(0x1F);
+  bus.pass(700 * millisecond);
+  CHECK(bus.status() == 0x2218);
+  CHECK(bus.number(0x603F) == 0x8611);
+  CHECK(bus.received(0x085) == std::vector<Bytes>{{0x11, 0x86, 0x21, 0, 0, 0, 0, 0}});
+  CHECK(bus.number(0x6064) == -100);
+  bus.control(0x00);
+  bus.control(0x80);
+  CHECK(bus.status() == 0x0250);
+  CHECK(bus.received(0x085).back() == Bytes{0, 0, 0, 0, 0, 0, 0, 0});
+  bus.enable(1);
+  bus.write(0x607A, 0, 4);
+  bus.control(0x1F);
+  bus.pass(500 * millisecond);
+  CHECK(bus.number(0x6064) == 0);
+}
+
 }  // namespace
