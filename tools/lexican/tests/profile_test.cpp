@@ -9,6 +9,7 @@ namespace {
 using namespace lexican;
 
 const std::string servo_eds = LEXICAN_TOOL_DIR "/tests/fixtures/servo.eds";
+const std::string module_eds = LEXICAN_TOOL_DIR "/tests/fixtures/module.eds";
 
 struct ProfileBus : SimulatedDevices {
   explicit ProfileBus(const std::string& path) : SimulatedDevices(path, 5, 1) {}
@@ -41,6 +42,11 @@ struct ProfileBus : SimulatedDevices {
     control(0x06);
     control(0x07);
     control(0x0F);
+  }
+  /// Returns the answer to the command get.
+  std::string shown(const std::string& object) {
+    bool is_fault = false;
+    return simulation.execute("get " + object, is_fault);
   }
   void master_starts() {
     frame(0x000, {0x01, 5});
@@ -335,6 +341,82 @@ TEST_CASE("drive: a following error beyond its window and time is a fault") {
   bus.control(0x1F);
   bus.pass(500 * millisecond);
   CHECK(bus.number(0x6064) == 0);
+}
+
+TEST_CASE("I/O module: digital inputs with polarity and interrupt masks") {
+  ProfileBus bus(module_eds);
+  bus.master_starts();
+  bus.run("set 6000:1 5");
+  CHECK(bus.number(0x6000, 1) == 5);
+  bus.write(0x6002, 0x0F, 1, 1);  // polarity
+  CHECK(bus.number(0x6000, 1) == 0x0A);
+  CHECK(bus.shown("6000:1") == "6000h:01 Read input 8-bit, Inputs 1 to 8 = 10, terminals 5");
+  CHECK(bus.received(0x185) == std::vector<Bytes>{{0x05}, {0x0A}});
+  bus.frames.clear();
+  bus.write(0x6006, 0x80, 1, 1);  // any change: input 8 only
+  bus.write(0x6007, 0x01, 1, 1);  // low to high: input 1
+  bus.write(0x6008, 0x02, 1, 1);  // high to low: input 2
+  bus.run("set 6000:1 4");        // input 1: 1
+  CHECK(bus.number(0x6000, 1) == 0x0B);
+  bus.run("set 6000:1 5");  // input 1: 0
+  bus.run("set 6000:1 7");  // input 2: 0
+  bus.run("set 6000:1 5");  // input 2: 1
+  bus.run("set 6000:1 69");
+  bus.run("set 6000:1 133");
+  CHECK(bus.number(0x6000, 1) == 0x8A);
+  CHECK(bus.received(0x185) == std::vector<Bytes>{{0x0B}, {0x08}, {0x8A}});
+  bus.frames.clear();
+  bus.write(0x6005, 0, 1);
+  bus.run("set 6000:1 0");
+  CHECK(bus.number(0x6000, 1) == 0x0F);
+  CHECK(bus.received(0x185).empty());
+}
+
+TEST_CASE("I/O module: digital outputs with polarity, filter mask and error mode") {
+  ProfileBus bus(module_eds);
+  const std::string object = "6200h:01 Write output 8-bit, Outputs 1 to 8 = ";
+  bus.master_starts();
+  bus.frame(0x205, {0x35});
+  CHECK(bus.number(0x6200, 1) == 0x35);
+  CHECK(bus.shown("6200:1") == object + "53, terminals 53");
+  bus.write(0x6202, 0x03, 1, 1);
+  CHECK(bus.shown("6200:1") == object + "53, terminals 54");  // 36h
+  bus.write(0x6208, 0xF0, 1, 1);
+  bus.frame(0x205, {0xC0});
+  CHECK(bus.shown("6200:1") == object + "192, terminals 198");  // C6h
+  bus.write(0x6206, 0x0F, 1, 1);
+  bus.write(0x6207, 0x09, 1, 1);
+  bus.frame(0x000, {0x02, 5});
+  bus.network.wait(millisecond);
+  CHECK(bus.shown("6200:1") == object + "192, terminals 201");  // C9h
+  bus.frame(0x000, {0x01, 5});
+  bus.write(0x6208, 0xFF, 1, 1);
+  bus.frame(0x205, {0x00});
+  CHECK(bus.shown("6200:1") == object + "0, terminals 3");
+}
+
+TEST_CASE("I/O module: analogue inputs with delta and interrupt, and outputs with an error value") {
+  ProfileBus bus(module_eds);
+  bus.master_starts();
+  bus.run("set 6401:1 1000");
+  CHECK(bus.number(0x6401, 1) == 1000);
+  CHECK(bus.received(0x285).empty());  // the interrupt is disabled by default
+  bus.write(0x6423, 1, 1);
+  bus.write(0x6426, 100, 4, 1);
+  bus.run("set 6401:1 -200");
+  bus.run("set 6401:1 -300");
+  bus.run("set 6401:1 -301");
+  CHECK(bus.number(0x6401, 1) == -301);
+  CHECK(bus.received(0x285) == std::vector<Bytes>{{0x38, 0xFF}, {0xD3, 0xFE}});
+  bus.frame(0x305, {0xE8, 0x03});
+  CHECK(bus.number(0x6411, 1) == 1000);
+  bus.write(0x6444, -5, 4, 1);
+  bus.frame(0x000, {0x02, 5});
+  bus.network.wait(millisecond);
+  CHECK(bus.shown("6411:1") == "6411h:01 Write analogue output 16-bit, Output 1 = 1000, terminals -5");
+  bus.frame(0x000, {0x01, 5});
+  bus.frame(0x305, {0x01, 0x00});
+  CHECK(bus.shown("6411:1") == "6411h:01 Write analogue output 16-bit, Output 1 = 1");
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 #include <algorithm>
 
 #include "simulate/drive.hpp"
+#include "simulate/inputs_outputs.hpp"
 
 namespace lexican::simulate {
 namespace {
 
+constexpr std::uint64_t io_profile = 401;
 constexpr std::uint64_t drive_profile = 402;
 constexpr unsigned most_axes = 8;
 constexpr unsigned axis_distance = 0x800;  // between the objects of two axes
@@ -22,6 +24,9 @@ std::vector<std::unique_ptr<Behaviour>> behaviours_of(Device& device) {
     if (numbers.has(0x6040) && numbers.has(0x6041)) {
       behaviours.push_back(std::make_unique<Drive>(numbers));
     }
+  }
+  if (profile == io_profile) {
+    behaviours.push_back(std::make_unique<InputsOutputs>(Numbers(device)));
   }
   return behaviours;
 }

@@ -27,6 +27,8 @@ class Behaviour {
   virtual bool is_at_rest() const = 0;
   /// The node has started, or was reset.
   virtual void reset() = 0;
+  /// Returns the state of the terminals of an object, if it has some.
+  virtual std::optional<std::int64_t> terminal(std::uint16_t, std::uint8_t) const { return std::nullopt; }
 };
 
 /// Makes the behaviours of a device that runs: one for each axis of a drive. Empty: its profile has none here.

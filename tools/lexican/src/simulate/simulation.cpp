@@ -306,8 +306,13 @@ std::string Simulation::execute_words(Member& member, const std::vector<std::str
       return why;
     }
     const std::optional<Bytes> value = device.get(index, sub_index);
-    return device.description().object(index, sub_index) + " = " +
-           (value ? device.description().show(index, sub_index, *value) : "no number");
+    std::string text = device.description().object(index, sub_index) + " = " +
+                       (value ? device.description().show(index, sub_index, *value) : "no number");
+    for (const std::unique_ptr<Behaviour>& behaviour : member.behaviours) {
+      const std::optional<std::int64_t> terminal = behaviour->terminal(index, sub_index);
+      text += terminal ? fmt::format(", terminals {}", *terminal) : "";
+    }
+    return text;
   }
   if (verb == "emcy") {
     const std::optional<std::uint32_t> code = hex_in(first);
