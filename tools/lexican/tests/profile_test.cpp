@@ -236,6 +236,20 @@ TEST_CASE("drive: profile position with set-points, acknowledge and target reach
   CHECK(bus.status() == 0x0637);
 }
 
+TEST_CASE("drive: a set-point whose target position is behind the controlword in the same RPDO") {
+  ProfileBus bus(servo_eds);
+  bus.master_starts();
+  bus.enable(1);
+  bus.frame(0x305, {0x1F, 0x00, 200, 0, 0, 0});
+  bus.frame(0x080, {});
+  bus.pass(600 * millisecond);
+  CHECK(bus.number(0x6064) == 200);
+  bus.frame(0x305, {0x0F, 0x00, 150, 0, 0, 0});
+  bus.frame(0x080, {});
+  bus.pass(100 * millisecond);
+  CHECK(bus.number(0x6064) == 200);
+}
+
 TEST_CASE("drive: profile position with halt, software limits, and without motion at the target") {
   ProfileBus bus(servo_eds);
   bus.write(0x607D, -1000, 4, 1);

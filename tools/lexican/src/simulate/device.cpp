@@ -19,6 +19,12 @@ const CO_CALLBACKS Device::callbacks = [] {
     Events& events = static_cast<Device*>(user)->events_;
     events.is_separated = events.is_separated || occurred;
   };
+  functions.PdoUpdate = [](CO_NODE*, void* user, CO_RPDO*) {
+    const auto& device = *static_cast<Device*>(user);
+    if (device.pdo_written_) {
+      device.pdo_written_();
+    }
+  };
   return functions;
 }();
 

@@ -3,6 +3,7 @@
 /// A simulated device: a node of the stack with the dictionary of a description, whose memory can be a file.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,11 +59,13 @@ class Device {
   /// Resets the node as after a power cycle: values that are not stored get their defaults.
   void power_cycle();
 
-  /// What has happened to the node since the last call.
+  /// Events of the node since the last call.
   struct Events {
     bool was_reset;     ///< NMT reset, or power cycle
     bool is_separated;  ///< NMT stop, or no heartbeat or guarding any more
   };
+  /// Sets a function that is called when all objects of an RPDO are written.
+  void on_pdo(std::function<void()> function) { pdo_written_ = std::move(function); }
   Events take_events() { return std::exchange(events_, {}); }
 
  private:
@@ -78,6 +81,7 @@ class Device {
   CO_EMCY_TBL emergency_{};
   std::string fault_;
   Events events_{};
+  std::function<void()> pdo_written_;
   std::unique_ptr<Node> node_;
 };
 

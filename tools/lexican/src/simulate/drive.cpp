@@ -23,6 +23,7 @@ void Drive::reset() {
   axis_.is_held = false;
   axis_.place(static_cast<double>(numbers_.integer(0x6064, 0, std::llround(axis_.actual))));
   word_ = 0;
+  next_words_.clear();
   mode_ = no_mode;
   has_excess_ = false;
   homing_ = Homing::none;
@@ -34,12 +35,18 @@ void Drive::reset() {
 
 void Drive::written(std::uint16_t index, std::uint8_t) {
   switch (numbers_.of_profile(index)) {
-    case 0x6040: control(numbers_.natural(0x6040, 0, 0)); break;
+    case 0x6040: next_words_.push_back(numbers_.natural(0x6040, 0, 0)); break;
     case 0x6060: choose_mode(); break;
     case 0x607A: cycle_rest_ = cycle(); break;
     default: break;
   }
   is_at_rest_ = false;
+}
+
+void Drive::update() {
+  for (const std::uint64_t word : std::exchange(next_words_, {})) {
+    control(word);
+  }
 }
 
 bool Drive::commanded(std::uint16_t index, std::uint8_t, const Bytes& value) {

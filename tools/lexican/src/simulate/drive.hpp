@@ -13,6 +13,7 @@ class Drive : public Behaviour {
   explicit Drive(const Numbers& numbers) : numbers_(numbers) {}
 
   void written(std::uint16_t index, std::uint8_t sub_index) override;
+  void update() override;
   bool commanded(std::uint16_t index, std::uint8_t sub_index, const Bytes& value) override;
   void raised(std::uint16_t code) override;
   void disconnected() override;
@@ -65,7 +66,8 @@ class Drive : public Behaviour {
   Numbers numbers_;
   State state_ = State::disabled;
   Axis axis_;
-  std::uint64_t word_ = 0;  ///< controlword
+  std::uint64_t word_ = 0;                 ///< controlword
+  std::vector<std::uint64_t> next_words_;  ///< controlwords whose frame may have further objects behind them
   std::int64_t mode_ = no_mode;
   bool is_at_rest_ = true;
   bool has_excess_ = false;  ///< following error

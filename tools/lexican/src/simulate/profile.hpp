@@ -10,12 +10,14 @@
 
 namespace lexican::simulate {
 
-/// What a device does by itself. Context: that of its simulation.
+/// The behaviour of a device without a script. Context: that of its simulation.
 class Behaviour {
  public:
   virtual ~Behaviour() = default;
   /// The network has written an object.
   virtual void written(std::uint16_t index, std::uint8_t sub_index) = 0;
+  /// All objects of a frame are written.
+  virtual void update() {}
   /// A command sets an object. \retval true  the behaviour has done so
   virtual bool commanded(std::uint16_t index, std::uint8_t sub_index, const Bytes& value) = 0;
   /// An error was raised by a command. \a code: EMCY error code

@@ -200,6 +200,7 @@ void Simulation::behave(Member& member, Micros now) {
   if (events.is_separated) {
     each([](const auto& behaviour) { behaviour->disconnected(); });
   }
+  each([](const auto& behaviour) { behaviour->update(); });
   const auto rests = [](const auto& behaviour) { return behaviour->is_at_rest(); };
   const auto all_rest = [&] { return std::all_of(member.behaviours.begin(), member.behaviours.end(), rests); };
   const bool has_rested = member.is_at_rest || now - member.behaved > longest_delay;
