@@ -2,6 +2,10 @@
 // Devices of the profiles CiA 402 and CiA 401, which behave without a script. Values typed from CiA 402-2 and 401-1.
 #include <doctest/doctest.h>
 
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+
 #include "simulated_devices.hpp"
 
 namespace {
@@ -355,6 +359,53 @@ TEST_CASE("drive: a following error beyond its window and time is a fault") {
   bus.control(0x1F);
   bus.pass(500 * millisecond);
   CHECK(bus.number(0x6064) == 0);
+}
+
+/// Writes the description of a drive with the objects of a second axis. Returns its path.
+std::string two_axes() {
+  std::istringstream lines(bytes_of_file(servo_eds));
+  std::string objects;
+  std::string text;
+  unsigned number = 0;
+  bool is_copied = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_section = !line.empty() && line[0] == '[';
+    const bool is_of_profile = is_section && line[1] == '6';
+    is_copied = is_section ? is_of_profile : is_copied;
+    char index[8] = {};
+    if (is_of_profile) {
+      std::snprintf(index, sizeof index, "%04lX", std::stoul(line.substr(1, 4), nullptr, 16) + 0x800);
+      number += line.size() == 6 ? 1U : 0U;
+      text += line.size() == 6 ? std::to_string(number) + "=0x" + index + "\n" : "";
+    }
+    objects += !is_copied ? "" : is_section ? std::string("[") + index + line.substr(5) + "\n" : line + "\n";
+  }
+  const std::string list = "[ManufacturerObjects]\nSupportedObjects=";
+  std::string all = bytes_of_file(servo_eds);
+  all.replace(all.find(list), list.size() + 2, list + std::to_string(number) + "\n" + text);
+  const std::string path = "/tmp/lexican-axes-" + std::to_string(getpid()) + ".eds";
+  std::ofstream(path, std::ios::binary) << all << '\n' << objects;
+  return path;
+}
+
+TEST_CASE("drive: each axis has its own state, and a fault by command is one of all axes") {
+  const std::string path = two_axes();
+  ProfileBus bus(path);
+  std::filesystem::remove(path);
+  bus.write(0x6860, 3, 1);
+  bus.write(0x6840, 0x06, 2);
+  bus.write(0x6840, 0x0F, 2);
+  CHECK(bus.number(0x6841) == 0x1637);
+  CHECK(bus.number(0x6861) == 3);
+  CHECK(bus.status() == 0x0250);
+  bus.write(0x68FF, 500, 4);
+  bus.pass(100 * millisecond);
+  CHECK(bus.number(0x686C) == 500);
+  CHECK(bus.number(0x606C) == 0);
+  bus.run("emcy 3210");
+  bus.pass(100 * millisecond);
+  CHECK(bus.number(0x6841) == 0x0218);
+  CHECK(bus.status() == 0x0218);
 }
 
 TEST_CASE("I/O module: digital inputs with polarity and interrupt masks") {
