@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/profile.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "simulate/drive.hpp"
@@ -12,6 +14,8 @@ namespace {
 constexpr std::uint64_t io_profile = 401;
 constexpr std::uint64_t drive_profile = 402;
 constexpr unsigned most_axes = 8;
+constexpr Micros step_interval = millisecond;
+constexpr Micros longest_delay = second;   // that a behaviour catches up
 constexpr unsigned axis_distance = 0x800;  // between the objects of two axes
 
 }  // namespace
@@ -29,6 +33,67 @@ std::vector<std::unique_ptr<Behaviour>> behaviours_of(Device& device) {
     behaviours.push_back(std::make_unique<InputsOutputs>(Numbers(device)));
   }
   return behaviours;
+}
+
+template <typename Call>
+void Behaviours::for_each(Call call) {
+  for (const std::unique_ptr<Behaviour>& behaviour : behaviours_) {
+    call(*behaviour);
+  }
+}
+
+bool Behaviours::are_at_rest() const {
+  return std::all_of(behaviours_.begin(), behaviours_.end(), [](const auto& one) { return one->is_at_rest(); });
+}
+
+void Behaviours::start(Device& device) {
+  device_ = &device;
+  behaviours_ = behaviours_of(device);
+  device.take_events();
+  for_each([](Behaviour& one) { one.reset(); });
+  device.dictionary().on_written([this](std::uint16_t index, std::uint8_t sub_index) {
+    for_each([=](Behaviour& one) { one.written(index, sub_index); });
+  });
+  device.on_pdo([this] { for_each([](Behaviour& one) { one.update(); }); });
+}
+
+Micros Behaviours::process(Micros now) {
+  const Device::Events events = device_->take_events();
+  if (events.was_reset) {
+    for_each([](Behaviour& one) { one.reset(); });
+  }
+  if (events.is_separated) {
+    for_each([](Behaviour& one) { one.disconnected(); });
+  }
+  for_each([](Behaviour& one) { one.update(); });
+  stepped_ = has_rested_ || now - stepped_ > longest_delay ? now : stepped_;
+  for (; !are_at_rest() && now - stepped_ >= step_interval; stepped_ += step_interval) {
+    for_each([](Behaviour& one) {
+      if (!one.is_at_rest()) {
+        one.step(step_interval);
+      }
+    });
+  }
+  has_rested_ = are_at_rest();
+  return has_rested_ ? for_ever : stepped_ + step_interval - now;
+}
+
+bool Behaviours::commanded(std::uint16_t index, std::uint8_t sub_index, const Bytes& value) {
+  return std::any_of(behaviours_.begin(), behaviours_.end(),
+                     [&](const auto& one) { return one->commanded(index, sub_index, value); });
+}
+
+void Behaviours::raised(std::uint16_t code) {
+  for_each([=](Behaviour& one) { one.raised(code); });
+}
+
+std::string Behaviours::terminals(std::uint16_t index, std::uint8_t sub_index) const {
+  for (const std::unique_ptr<Behaviour>& behaviour : behaviours_) {
+    if (const std::optional<std::int64_t> terminal = behaviour->terminal(index, sub_index)) {
+      return fmt::format(", terminals {}", *terminal);
+    }
+  }
+  return {};
 }
 
 std::uint64_t natural_of(const Bytes& bytes) {

@@ -37,6 +37,31 @@ class Behaviour {
 /// \a device must outlive them.
 std::vector<std::unique_ptr<Behaviour>> behaviours_of(Device& device);
 
+/// The behaviours of one device.
+class Behaviours {
+ public:
+  /// \a device: runs; must outlive it.
+  void start(Device& device);
+  /// Lets the behaviours continue until now.
+  /// \retval time until it has to be called again; for_ever: the device is at rest
+  Micros process(Micros now);
+  /// A command sets an object. \retval true  a behaviour has done so
+  bool commanded(std::uint16_t index, std::uint8_t sub_index, const Bytes& value);
+  void raised(std::uint16_t code);
+  /// Returns a text with the state of the terminals of an object; empty: it has none.
+  std::string terminals(std::uint16_t index, std::uint8_t sub_index) const;
+
+ private:
+  template <typename Call>
+  void for_each(Call call);
+  bool are_at_rest() const;
+
+  Device* device_ = nullptr;
+  std::vector<std::unique_ptr<Behaviour>> behaviours_;
+  Micros stepped_ = 0;  ///< time of the last step
+  bool has_rested_ = true;
+};
+
 /// The integers among the objects of a device. Objects that it has not are never made: they have the value that the
 /// caller names.
 class Numbers {

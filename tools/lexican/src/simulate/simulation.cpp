@@ -17,8 +17,6 @@ namespace {
 using EntryKey = std::pair<std::uint16_t, std::uint8_t>;  // index and sub-index
 
 constexpr Micros signal_interval = 10 * millisecond;
-constexpr Micros behaviour_interval = millisecond;
-constexpr Micros longest_delay = second;  // of a behaviour, that it catches up
 constexpr const char* commands =
     "set OBJECT VALUE | set OBJECT ramp FROM TO TIME | set OBJECT sine LOW HIGH TIME | get OBJECT\n"
     "emcy CODE | emcy 0 | abort OBJECT CODE | abort OBJECT off\n"
@@ -92,11 +90,14 @@ std::optional<std::uint32_t> hex_in(std::string_view text) {
 struct Simulation::Member {
   Member(Ground& ground, std::uint64_t seed) : can(ground.add_can(), seed, [&ground] { return ground.now(); }) {}
 
+  /// Sets a value by a command.
+  bool put(std::uint16_t index, std::uint8_t sub_index, const Bytes& value) {
+    return behaviours.commanded(index, sub_index, value) || device->set(index, sub_index, value);
+  }
+
   DisturbedCan can;
   std::unique_ptr<Device> device;
-  std::vector<std::unique_ptr<Behaviour>> behaviours;
-  Micros behaved = 0;  ///< time of the last step of the behaviours
-  bool is_at_rest = true;
+  Behaviours behaviours;
   Micros on_again = 0;  ///< time of the end of "off"; 0: it is on
 };
 
@@ -142,19 +143,7 @@ std::string Simulation::start() {
     if (!fault.empty()) {
       return fault;
     }
-    member->behaviours = behaviours_of(*member->device);
-    member->device->take_events();
-    for (const std::unique_ptr<Behaviour>& behaviour : member->behaviours) {
-      behaviour->reset();
-    }
-    if (!member->behaviours.empty()) {
-      member->device->dictionary().on_written(
-          [&behaviours = member->behaviours](std::uint16_t index, std::uint8_t sub) {
-            for (const std::unique_ptr<Behaviour>& behaviour : behaviours) {
-              behaviour->written(index, sub);
-            }
-          });
-    }
+    member->behaviours.start(*member->device);
   }
   return {};
 }
@@ -174,10 +163,7 @@ Micros Simulation::process() {
   bool has_changed = false;
   for (const std::unique_ptr<Member>& member : members_) {
     has_changed = member->device->node().process() || has_changed;
-    behave(*member, now);
-    if (!member->is_at_rest) {
-      wait = std::min(wait, member->behaved + behaviour_interval - now);
-    }
+    wait = std::min(wait, member->behaviours.process(now));
   }
   for (const std::unique_ptr<Member>& member : members_) {
     const Micros due = member->can.due();
@@ -188,41 +174,6 @@ Micros Simulation::process() {
     wait = std::min(wait, later.time > now ? later.time - now : 0);
   }
   return has_changed ? 0 : wait;
-}
-
-/// Lets the behaviours of a device continue until now.
-void Simulation::behave(Member& member, Micros now) {
-  const Device::Events events = member.device->take_events();
-  const auto each = [&](auto call) { std::for_each(member.behaviours.begin(), member.behaviours.end(), call); };
-  if (events.was_reset) {
-    each([](const auto& behaviour) { behaviour->reset(); });
-  }
-  if (events.is_separated) {
-    each([](const auto& behaviour) { behaviour->disconnected(); });
-  }
-  each([](const auto& behaviour) { behaviour->update(); });
-  const auto rests = [](const auto& behaviour) { return behaviour->is_at_rest(); };
-  const auto all_rest = [&] { return std::all_of(member.behaviours.begin(), member.behaviours.end(), rests); };
-  const bool has_rested = member.is_at_rest || now - member.behaved > longest_delay;
-  member.behaved = has_rested ? now : member.behaved;
-  for (; !all_rest() && now - member.behaved >= behaviour_interval; member.behaved += behaviour_interval) {
-    each([](const auto& behaviour) {
-      if (!behaviour->is_at_rest()) {
-        behaviour->step(behaviour_interval);
-      }
-    });
-  }
-  member.is_at_rest = all_rest();
-}
-
-/// Sets a value by a command.
-bool Simulation::put(Member& member, std::uint16_t index, std::uint8_t sub_index, const Bytes& value) {
-  for (const std::unique_ptr<Behaviour>& behaviour : member.behaviours) {
-    if (behaviour->commanded(index, sub_index, value)) {
-      return true;
-    }
-  }
-  return member.device->set(index, sub_index, value);
 }
 
 void Simulation::run_later(Micros now) {
@@ -263,7 +214,7 @@ void Simulation::update_signals(Micros now) {
     const Encoded encoded =
         type ? encode(*type, is_real ? fmt::format("{}", value) : fmt::format("{}", std::llround(value))) : Encoded{};
     if (encoded.fault.empty() && device.get(signal.key.first, signal.key.second) != encoded.bytes) {
-      put(*signal.member, signal.key.first, signal.key.second, encoded.bytes);
+      signal.member->put(signal.key.first, signal.key.second, encoded.bytes);
     }
     if (has_ended) {
       signals_.erase(signals_.begin() + static_cast<std::ptrdiff_t>(n));
@@ -307,13 +258,9 @@ std::string Simulation::execute_words(Member& member, const std::vector<std::str
       return why;
     }
     const std::optional<Bytes> value = device.get(index, sub_index);
-    std::string text = device.description().object(index, sub_index) + " = " +
-                       (value ? device.description().show(index, sub_index, *value) : "no number");
-    for (const std::unique_ptr<Behaviour>& behaviour : member.behaviours) {
-      const std::optional<std::int64_t> terminal = behaviour->terminal(index, sub_index);
-      text += terminal ? fmt::format(", terminals {}", *terminal) : "";
-    }
-    return text;
+    return device.description().object(index, sub_index) + " = " +
+           (value ? device.description().show(index, sub_index, *value) : "no number") +
+           member.behaviours.terminals(index, sub_index);
   }
   if (verb == "emcy") {
     const std::optional<std::uint32_t> code = hex_in(first);
@@ -321,9 +268,7 @@ std::string Simulation::execute_words(Member& member, const std::vector<std::str
       return wrong("emcy 4310, or emcy 0 when the error has gone");
     }
     *code == 0 ? device.clear() : device.raise(static_cast<std::uint16_t>(*code));
-    for (const std::unique_ptr<Behaviour>& behaviour : member.behaviours) {
-      behaviour->raised(static_cast<std::uint16_t>(*code));
-    }
+    member.behaviours.raised(static_cast<std::uint16_t>(*code));
     return {};
   }
   if (verb == "abort" && words.size() == 3) {
@@ -426,7 +371,7 @@ std::string Simulation::set(Member& member, const std::vector<std::string>& word
   if (!encoded.fault.empty()) {
     return object + ": " + encoded.fault;
   }
-  return put(member, index, sub_index, encoded.bytes) ? "" : object + " is a constant of the device";
+  return member.put(index, sub_index, encoded.bytes) ? "" : object + " is a constant of the device";
 }
 
 }  // namespace lexican::simulate

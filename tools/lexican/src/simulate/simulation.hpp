@@ -70,8 +70,6 @@ class Simulation {
   void update_signals(Micros now);
   void switch_on(Micros now);
   void run_later(Micros now);
-  static bool put(Member& member, std::uint16_t index, std::uint8_t sub_index, const Bytes& value);
-  void behave(Member& member, Micros now);
 
   Ground& ground_;
   FindObject find_;
