@@ -361,6 +361,36 @@ TEST_CASE("drive: a following error beyond its window and time is a fault") {
   CHECK(bus.number(0x6064) == 0);
 }
 
+TEST_CASE("drive: a cyclic target that it cannot follow is a following error") {
+  ProfileBus bus(servo_eds);
+  bus.enable(8);
+  bus.write(0x607A, 400, 4);  // a step within the window
+  bus.pass(50 * millisecond);
+  CHECK(bus.number(0x6064) == 400);
+  CHECK((bus.status() & 0x6F) == 0x27);
+  bus.write(0x607A, 9000, 4);  // 50000 per s by 6080h: too far behind for longer than 10 ms
+  bus.pass(300 * millisecond);
+  CHECK(bus.status() == 0x2218);
+  CHECK(bus.number(0x603F) == 0x8611);
+  CHECK(bus.number(0x6064) < 9000);
+}
+
+TEST_CASE("drive: without heartbeat of the master it does what 6007h demands") {
+  for (const int option : {0, 1, 2, 3}) {
+    CAPTURE(option);
+    ProfileBus bus(servo_eds);
+    bus.write(0x6007, option, 2);
+    bus.write(0x1016, 0x00090064, 4, 1);  // node 9, 100 ms
+    bus.enable(3);
+    bus.frame(0x709, {0x05});
+    bus.pass(50 * millisecond);
+    CHECK((bus.status() & 0x6F) == 0x27);
+    bus.pass(150 * millisecond);
+    const unsigned status = bus.status() & 0x6F;
+    CHECK((option == 0 ? status == 0x27 : option == 1 ? status == 0x08 : (status & 0x4F) == 0x40));
+  }
+}
+
 /// Writes the description of a drive with the objects of a second axis. Returns its path.
 std::string two_axes() {
   std::istringstream lines(bytes_of_file(servo_eds));
