@@ -391,6 +391,34 @@ TEST_CASE("drive: without heartbeat of the master it does what 6007h demands") {
   }
 }
 
+TEST_CASE("drive: values that a command sets stay until the axis changes them") {
+  ProfileBus bus(servo_eds);
+  bus.run("set 606C 77");
+  bus.control(0x06);
+  bus.pass(20 * millisecond);
+  CHECK(bus.number(0x606C) == 77);
+  bus.enable(3);
+  bus.write(0x60FF, 10, 4);
+  bus.pass(20 * millisecond);
+  CHECK(bus.number(0x606C) == 10);
+}
+
+TEST_CASE("drive: an event-driven TPDO with the position is sent every 10 ms, and at the end of the motion") {
+  ProfileBus bus(servo_eds);
+  bus.write(0x1801, 255, 1, 2);
+  bus.enable(1);
+  bus.write(0x6084, 100, 4);  // the last ms do not change the position
+  bus.write(0x607A, 50, 4);
+  bus.master_starts();
+  bus.control(0x1F);
+  bus.pass(1500 * millisecond);
+  const std::vector<Bytes> frames = bus.received(0x285);
+  CHECK(frames.size() > 30);
+  CHECK(frames.size() < 150);
+  CHECK(frames.back() == Bytes{0x37, 0x16, 50, 0, 0, 0});
+  CHECK(bus.number(0x6064) == 50);
+}
+
 /// Writes the description of a drive with the objects of a second axis. Returns its path.
 std::string two_axes() {
   std::istringstream lines(bytes_of_file(servo_eds));

@@ -24,6 +24,7 @@ void Drive::reset() {
   axis_.place(static_cast<double>(numbers_.integer(0x6064, 0, std::llround(axis_.actual))));
   word_ = 0;
   next_words_.clear();
+  published_.clear();
   mode_ = no_mode;
   has_excess_ = false;
   homing_ = Homing::none;
@@ -224,16 +225,28 @@ std::uint64_t Drive::status() const {
                                        : bits;
 }
 
+/// Sets the objects whose values have changed: those that a command has set stay until then.
 void Drive::publish() {
   steps_ = axis_.is_moving() ? steps_ + 1 : 0;
   const bool is_event = steps_ % event_steps == 0;
-  numbers_.put(0x6062, 0, std::llround(axis_.demand), is_event);
-  numbers_.put(0x606B, 0, std::llround(axis_.speed), is_event);
-  numbers_.put(0x60F4, 0, std::llround(axis_.demand - axis_.actual), is_event);
-  numbers_.put(0x606C, 0, std::llround(axis_.actual_speed), is_event);
-  numbers_.put(0x6064, 0, std::llround(axis_.actual), is_event);
-  numbers_.put(0x6061, 0, mode_);
-  numbers_.put(0x6041, 0, static_cast<std::int64_t>(status()));
+  const auto put = [&](std::uint16_t index, std::int64_t value, bool may_send) {
+    const auto [place, is_new] = published_.emplace(index, Published{value, false});
+    Published& last = place->second;
+    if (is_new || last.value != value) {
+      numbers_.put(index, 0, value, may_send);
+      last = {value, !may_send};
+    } else if (last.is_unsent && may_send) {
+      numbers_.send(index);
+      last.is_unsent = false;
+    }
+  };
+  put(0x6062, std::llround(axis_.demand), is_event);
+  put(0x606B, std::llround(axis_.speed), is_event);
+  put(0x60F4, std::llround(axis_.demand - axis_.actual), is_event);
+  put(0x606C, std::llround(axis_.actual_speed), is_event);
+  put(0x6064, std::llround(axis_.actual), is_event);
+  put(0x6061, mode_, true);
+  put(0x6041, static_cast<std::int64_t>(status()), true);
 }
 
 }  // namespace lexican::simulate

@@ -3,6 +3,8 @@
 /// A simulated drive of CiA 402: state machine, modes of operation, and a simple axis.
 #pragma once
 
+#include <map>
+
 #include "simulate/axis.hpp"
 #include "simulate/profile.hpp"
 
@@ -33,6 +35,12 @@ class Drive : public Behaviour {
     cyclic_velocity = 9
   };
   enum class Homing { none, running, attained, failed };
+
+  /// An object that the drive has set.
+  struct Published {
+    std::int64_t value;
+    bool is_unsent;  ///< it has not caused a TPDO yet
+  };
 
   // The state machine.
   void control(std::uint64_t word);
@@ -76,6 +84,7 @@ class Drive : public Behaviour {
   Micros excess_time_ = 0;
   Micros reached_time_ = 0;
   unsigned steps_ = 0;
+  std::map<std::uint16_t, Published> published_;  ///< by index
 
   double target_ = 0;  ///< position
   bool has_next_ = false;

@@ -140,4 +140,10 @@ void Numbers::put(std::uint16_t index, std::uint8_t sub_index, std::int64_t valu
   }
 }
 
+void Numbers::send(std::uint16_t index) const {
+  if (const std::optional<Bytes> value = bytes(index, 0)) {
+    device_.set(static_cast<std::uint16_t>(index + offset_), 0, *value);
+  }
+}
+
 }  // namespace lexican::simulate

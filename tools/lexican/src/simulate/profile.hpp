@@ -77,6 +77,8 @@ class Numbers {
   std::int64_t integer(std::uint16_t index, std::uint8_t sub_index, std::int64_t otherwise) const;
   /// Sets an object, if the device has it. \a is_event: event-driven TPDOs with it are sent if the value changes
   void put(std::uint16_t index, std::uint8_t sub_index, std::int64_t value, bool is_event = true) const;
+  /// Sends the event-driven TPDOs with an object.
+  void send(std::uint16_t index) const;
 
  private:
   std::optional<Bytes> bytes(std::uint16_t index, std::uint8_t sub_index) const;
