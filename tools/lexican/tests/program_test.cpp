@@ -759,9 +759,9 @@ TEST_CASE("lexican nmt: the state of a device without heartbeat is unknown") {
 
 TEST_CASE("lexican nmt: the state of a device without heartbeat is unknown after its boot-up message") {
   Bench bench{5};
-  Process mon(bench.line("mon", {"--all"}), bench.environment());
-  CHECK(bench.run("read", {"5", "1008"}).status == 0);
-  mon.wait_for("SD-400");
+  CHECK(bench.run("write", {"5", "1017", "50"}).status == 0);
+  Process mon(bench.line("mon", {}), bench.environment());
+  mon.wait_for("heartbeat");
   Process nmt(bench.line("nmt", {"start", "12", "--timeout", "3000"}), bench.environment());
   mon.wait_for("NMT start");
   bench.add(12);
@@ -1461,14 +1461,14 @@ TEST_CASE("lexican lss: devices without node-ID are found, and receive one") {
   const Ran json = bench.run("lss", {"info", "--json"});
   CHECK(fault_of(json.out, "lss") == "");
   CHECK(Json::parse(json.out)["node"].is_null());
-  check(bench.run("lss", {"assign", "A7=5"}), 1, "",
+  check(bench.run("lss", {"assign", "100:402:10000:A7=5"}), 1, "",
         "lexican: node-ID 5 is that of another device; choose one that is free\n");
-  for (const char* const heartbeat : {"0", "200"}) {  // without it, by node guarding
-    CAPTURE(heartbeat);
+  for (const char* const period : {"0", "200"}) {  // without it, by node guarding
+    CAPTURE(period);
     bench.run("nmt", {"start", "5"});
-    CHECK(bench.run("write", {"5", "1017", heartbeat, "--type", "u16"}).status == 0);
+    CHECK(bench.run("write", {"5", "1017", period, "--type", "u16"}).status == 0);
     bench.run("nmt", {"stop", "5"});  // it does not answer SDO requests
-    check(bench.run("lss", {"assign", "A7=5"}), 1, "",
+    check(bench.run("lss", {"assign", "100:402:10000:A7=5"}), 1, "",
           "lexican: node-ID 5 is that of another device; choose one that is free\n");
   }
   check(bench.run("lss", {"assign", "A7=7", "A7=8"}), 2, "", "lexican: the device 000000A7 is given twice\n");
