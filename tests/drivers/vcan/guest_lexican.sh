@@ -72,13 +72,14 @@ cangen vcan0 -g 0.2 -n 2000 -I i -L i -D i
 cangen vcan0 -g 0.2 -n 500 -I r -L r -D r -e
 cangen vcan0 -g 0.2 -n 500 -I r -L r -R
 usleep 500000
+kill -INT $listener
+wait $listener
 kill -INT $monitor
 wait $monitor
 verdict $? "lexican: Ctrl-C ends mon with status 0" "status $? $(tail -n 1 /tmp/mon)"
-kill -INT $listener
-wait $listener
-awk '{ print $3 }' /tmp/candump.log >/tmp/candump.frames
-awk '{ print $3 }' /tmp/mon.log | head -n "$(wc -l </tmp/candump.frames)" >/tmp/mon.frames
+# From the first frame of cansend to the last one of candump: the heartbeats before and behind it reach only one of them.
+awk '$3 == "000#0105" { begun = 1 } begun { print $3 }' /tmp/candump.log >/tmp/candump.frames
+awk '$3 == "000#0105" { begun = 1 } begun { print $3 }' /tmp/mon.log | head -n "$(wc -l </tmp/candump.frames)" >/tmp/mon.frames
 [ "$(wc -l </tmp/candump.frames)" -ge 3000 ] && cmp /tmp/candump.frames /tmp/mon.frames
 verdict $? "lexican: the log of mon has the frames of candump" "$(diff /tmp/candump.frames /tmp/mon.frames | head -n 4)"
 for text in "NMT start, node 5" "EMCY 4310h" "write 2101h:00 = 005Ah" "write 1000h.*refused: 0601 0002h"; do

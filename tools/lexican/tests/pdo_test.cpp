@@ -382,4 +382,28 @@ TEST_CASE("lexican pdo send: a device that is not operational, and an object of 
         "lexican: RPDO1 maps 2000h:00 with a length of 0 bits\n");
 }
 
+TEST_CASE("lexican apply: a device that stops answering in the middle of a PDO") {
+  Bench bench{5};
+  const std::string dcf = bench.directory / "5.dcf";
+  CHECK(bench.run("dump", {"5", "-o", dcf, "--eds", eds}).status == 0);
+  std::string text = bytes_of(dcf);
+  const std::pair<const char*, const char*> changes[] = {{"[1801sub1]", "$NODEID+0x40000280"}, {"[1801sub2]", "1"}};
+  for (const auto& [section, value] : changes) {
+    const std::size_t begin = text.find("ParameterValue=", text.find(section)) + 15;
+    text.replace(begin, text.find('\r', begin) - begin, value);
+  }
+  write_bytes(dcf, text);
+  FaultyServer server(bench);
+  server.objects = {{0x100000, {0x00020192, 4}}, {0x101700, {0, 2}},          {0x101801, {0x100, 4}},
+                    {0x101802, {0x402, 4}},      {0x101803, {0x10000, 4}},    {0x101804, {1, 4}},
+                    {0x180101, {0x40000287, 4}}, {0x180102, {255, 1}},        {0x1A0100, {0, 1}},
+                    {0x1A0101, {0, 4}},          {0x1A0102, {0, 4}},          {0x200300, {0x3F000000, 4}},
+                    {0x200400, {1, 1}},          {0x200500, {0x73697861, 4}}, {0x200A00, {5, 4}}};
+  server.silent_from = 2;
+  server.start();
+  const Ran ran = bench.run("apply", {dcf, "-n", "7", "--timeout", "200"});
+  CHECK(ran.status == 3);
+  CHECK(has(ran.err, "lexican: 0 values were written, and TPDO2 may be switched off; the same command goes on\n"));
+}
+
 }  // namespace

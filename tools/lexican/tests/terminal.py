@@ -263,7 +263,8 @@ def test_top(bench, screen):
     top.shows(bench, "shows plots with a locale that is not installed", r"^TPDO1 Time, Second +\d+ +\u2800*[\u2801-\u28ff]")
     top.type("q")
     screen.end()
-    shown, status = screen.run(f"TERM=none lexican top {BUS}")
+    # ncurses does not free the memory of a terminal that it does not know.
+    shown, status = screen.run(f"ASAN_OPTIONS=detect_leaks=0 TERM=none lexican top {BUS}")
     expect(bench, "top names a terminal without terminfo entry", status == "2" and "no entry for 'none'" in shown, shown)
     for name in "dumb", "":
         shown, status = screen.run(f"TERM={name} lexican top {BUS}")

@@ -129,6 +129,7 @@ class Apply {
         continue;
       }
       last_ = key;
+      open_pdo_ = download.communication;
       transfer_ = session_.sdo().download(key.first, key.second, bytes_of(download),
                                           {SdoClient::small, options_.common.timeout, {}});
       if (!transfer_.done() && !is_refusal()) {
@@ -143,6 +144,7 @@ class Apply {
         }
       }
     }
+    open_pdo_ = 0;
     return true;
   }
 
@@ -176,6 +178,8 @@ class Apply {
   const EntryKey& last() const { return last_; }
   std::size_t compared() const { return compared_; }
   std::size_t written() const { return written_; }
+  /// Returns the communication parameter of the PDO that was being written when the device stopped answering; 0: none.
+  std::uint16_t open_pdo() const { return open_pdo_; }
   /// Returns true if the file has values that cannot be read from the device.
   bool has_write_only() const { return !write_only_.empty(); }
   bool has_downloads() const { return !downloads_.empty(); }
@@ -278,6 +282,7 @@ class Apply {
   std::vector<EntryKey> left_out_;
   std::size_t compared_ = 0;
   std::size_t written_ = 0;
+  std::uint16_t open_pdo_ = 0;
   std::vector<Difference> differences_;
   std::map<EntryKey, std::uint32_t> refused_;
   Transfer transfer_;
@@ -290,8 +295,12 @@ int report_break(Session& session, const Apply& apply, std::uint8_t node) {
   target.node = node;
   target.name = apply.name_of(apply.last());
   const int status = report_failure(session, target, apply.transfer());
-  if (apply.written() != 0) {
-    print_message(fmt::format("{} values were written; the same command goes on", apply.written()));
+  const std::uint16_t pdo = apply.open_pdo();
+  if (apply.written() != 0 || pdo != 0) {
+    print_message(fmt::format(
+        "{} value{} written{}; the same command goes on", apply.written(), apply.written() == 1 ? " was" : "s were",
+        pdo == 0 ? ""
+                 : fmt::format(", and {}PDO{} may be switched off", pdo >= 0x1800 ? 'T' : 'R', (pdo & 0x1FFU) + 1)));
   }
   return status;
 }
