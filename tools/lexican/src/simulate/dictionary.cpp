@@ -203,7 +203,8 @@ struct Dictionary::Guard {
   std::uint32_t abort;
 
   static Guard& of(CO_OBJ* obj) {
-    return *reinterpret_cast<Guard*>(const_cast<CO_OBJ_TYPE*>(obj->Type));  // its first member
+    void* const first_member = const_cast<CO_OBJ_TYPE*>(obj->Type);
+    return *static_cast<Guard*>(first_member);
   }
   static CO_ERR refuse(CO_OBJ* obj, CO_NODE* node, std::uint32_t code, CO_ERR error) {
     COObjTypeUserSDOAbort(obj, node, code);
