@@ -50,7 +50,7 @@ prints() {  # TEXT COMMAND...: succeeds if the output contains the text, whateve
 }
 
 is_small() { wc -c <"$program" && [ "$(wc -c <"$program")" -le $most_bytes ]; }
-needs_no_loader() { ! LC_ALL=C readelf --program-headers --dynamic "$program" | grep -E 'INTERP|NEEDED'; }
+needs_no_loader() { [ -s "$program" ] && ! LC_ALL=C readelf --program-headers --dynamic "$program" | grep -E 'INTERP|NEEDED'; }
 names_its_version() { prints "$name $(sed -n 's/^project(lexican VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")" start --version; }
 converts() { run_in_root convert drive.eds -o drive.xdd && [ -s "$place/root/drive.xdd" ]; }
 shows_log() { prints "heartbeat: operational" run_in_root mon fault.pcapng; }
