@@ -171,6 +171,20 @@ TEST_CASE("hub: the greeting says whether the bus is simulated") {
   CHECK(unknown->is_physical());
 }
 
+TEST_CASE("hub: a simulated bus carries the error frames of a wrong frame, an adapter does not") {
+  const CO_IF_FRM error = {CO_IF_FRM_ERROR | 0x088, {0, 0, 0x81}, 8};
+  Hub simulated(2);
+  CHECK(simulated.buses[0]->send(error));
+  simulated.server.process(0);
+  const std::optional<Entry> entry = simulated.buses[1]->receive();
+  REQUIRE(entry.has_value());
+  CHECK(entry->frame.Identifier == error.Identifier);
+  Hub physical(2, "physical 500000");
+  CHECK(physical.buses[0]->send(error));
+  physical.server.process(0);
+  CHECK(physical.server.clients() == 1);
+}
+
 TEST_CASE("hub: the messages on the socket") {
   Hub hub(1);
   const int fd = hub.connect_raw();

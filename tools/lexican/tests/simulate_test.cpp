@@ -200,6 +200,14 @@ TEST_CASE("simulate: commands with faults change nothing") {
       {"off soon", "off needs"},
       {"after 3 emcy 1000", "after needs"},
       {"node 6", "no device has the node-ID 6"},
+      {"wrong-length 9", "wrong-length needs: nothing, a number of bytes"},
+      {"hang-sdo soon", "hang-sdo needs: nothing, a time"},
+      {"wrong-toggle on", "wrong-toggle needs: nothing, or off"},
+      {"same-id 7", "same-id needs: nothing, or off"},
+      {"busoff 5", "busoff needs: nothing, a time"},
+      {"flood", "flood needs: a CAN-ID"},
+      {"flood 20000000", "flood needs: a CAN-ID"},
+      {"flood 185 10001", "flood needs: a CAN-ID"},
   };
   for (const auto& row : wrong) {
     const std::string line = row.first;
@@ -244,6 +252,142 @@ TEST_CASE("simulate: errors, refusals, a loss of power and lost frames") {
   const Micros begin = bus.network.now();
   CHECK(bus.read(0x2101) == "0");
   CHECK(bus.network.now() - begin >= 50 * millisecond);
+}
+
+TEST_CASE("simulate: TPDOs of a wrong length, and a flood of frames") {
+  SimulatedDevices bus(clock_eds, 5, 1);
+  bus.network.bus().inject({0, {1, 0}, 2});  // NMT start
+  bus.pass(10 * millisecond);
+  const auto length = [&](const char* command) {
+    bus.run(command);
+    bus.frames.clear();
+    bus.run("set 2100:1 1");
+    bus.run("set 2100:1 2");
+    bus.pass(1100 * millisecond);
+    REQUIRE(!bus.received(0x185).empty());
+    return bus.received(0x185).front().size();
+  };
+  const std::size_t mapped = length("wrong-length off");
+  CHECK(length("wrong-length") == mapped - 1);
+  CHECK(length("wrong-length 8") == 8);
+  CHECK(length("wrong-length 0") == 0);
+  CHECK(bus.received(0x705).front() == Bytes{5});  // other frames are as before
+  CHECK(length("wrong-length off") == mapped);
+
+  bus.run("flood 123 200");
+  bus.frames.clear();
+  bus.pass(second);
+  const std::size_t frames = bus.received(0x123).size();
+  CHECK(frames >= 199);
+  CHECK(frames <= 201);
+  CHECK(bus.received(0x123)[7][0] == static_cast<std::uint8_t>(bus.received(0x123)[6][0] + 1));
+  CHECK(bus.read(0x2101) == "0");
+  std::size_t sent = 0;
+  bus.network.bus().set_trace([&](const co::VirtualBus::Traffic& frame) { sent += frame.frame.Identifier == 1; });
+  bus.run("flood 1");
+  const Micros begin = bus.network.now();
+  while (bus.network.now() - begin < 100 * millisecond) {
+    bus.network.wait(millisecond);
+  }
+  bus.network.bus().set_trace({});
+  const std::size_t most = VirtualNetwork::bit_rate / 10 / 111;  // 8 bytes without stuff bits
+  CHECK(sent > most * 80 / 100);
+  bus.run("flood off");
+  bus.pass(10 * millisecond);
+  bus.frames.clear();
+  bus.pass(50 * millisecond);
+  CHECK(bus.received(0x001).empty());
+}
+
+TEST_CASE("simulate: SDO servers that hang, and wrong toggle bits") {
+  SimulatedDevices bus(simulated_eds, 5, 1);
+  bus.run("set 2005 \"a text of some segments\"");
+  const std::string text = "\"a text of some segments\"";
+  CHECK(bus.read(0x2005) == text);
+  bus.run("hang-sdo");
+  CHECK(bus.read(0x2005) == "no answer");
+  bus.run("hang-sdo off");
+  CHECK(bus.read(0x2005) == text);
+  bus.run("hang-sdo 300ms");
+  CHECK(bus.read(0x2005) == "no answer");
+  bus.pass(300 * millisecond);
+  CHECK(bus.read(0x2005) == text);
+
+  bus.run("wrong-toggle");
+  CHECK(bus.read(0x2001) == "-40");  // expedited
+  bus.frames.clear();
+  CHECK(bus.read(0x2005) == "aborted with 0503 0000h toggle bit not alternated");
+  const std::vector<Bytes> answers = bus.received(0x585);
+  REQUIRE(answers.size() == 3);
+  CHECK(answers[1][0] == 0x00);  // the first segment is right
+  CHECK(answers[2][0] == 0x00);
+  bus.frames.clear();
+  const Bytes longer(20, 'x');
+  CHECK(bus.client->sdo().download(0x2005, 0, longer, {SdoClient::small, 100, {}}).outcome() ==
+        "aborted with 0503 0000h toggle bit not alternated");
+  CHECK(bus.received(0x585).size() == 3);
+  CHECK(bus.received(0x585).back()[0] == 0x20);
+  bus.run("wrong-toggle off");
+  bus.run("set 2005 " + text);
+  CHECK(bus.read(0x2005) == text);
+}
+
+TEST_CASE("simulate: two devices with one node-ID") {
+  SimulatedDevices bus(clock_eds, 5, 1);
+  const std::string serial = bus.read(0x1018, 4);
+  std::map<std::uint32_t, std::vector<Bytes>> sent;
+  bus.network.bus().set_trace([&](const co::VirtualBus::Traffic& traffic) {
+    const CO_IF_FRM& frame = traffic.frame;
+    sent[frame.Identifier].emplace_back(frame.Data, frame.Data + frame.DLC);
+  });
+  const auto sent_in = [&](Micros time, const std::string& command) {
+    sent.clear();
+    bus.run(command);
+    for (const Micros end = bus.network.now() + time; bus.network.now() < end;) {
+      bus.network.wait(millisecond);
+    }
+    return sent;
+  };
+  auto frames = sent_in(1500 * millisecond, "same-id");
+  CHECK(frames[0x705] == std::vector<Bytes>{{0}, {127}, {127}});  // a boot-up, and two heartbeats
+  CHECK(frames[0x085].front() == Bytes{0x50, 0x81, 0x11, 0, 0, 5, 0, 0});
+  bus.network.bus().inject({0x605, {0x40, 0x18, 0x10, 4}, 8});
+  frames = sent_in(10 * millisecond, "");
+  REQUIRE(frames[0x585].size() == 2);
+  CHECK(frames[0x585][0][4] + 1 == frames[0x585][1][4]);  // serial numbers
+  frames = sent_in(1500 * millisecond, "same-id off");
+  CHECK(frames[0x705].size() <= 2);
+  frames = sent_in(1500 * millisecond, "same-id");
+  CHECK(frames[0x705].size() == 3);
+  CHECK(bus.simulation.devices() == 2);
+  sent_in(1500 * millisecond, "same-id off");
+  bus.network.bus().set_trace({});
+  CHECK(bus.read(0x1018, 4) == serial);
+}
+
+TEST_CASE("simulate: bus-off, and the recovery from it") {
+  SimulatedDevices bus(clock_eds, 5, 1);
+  bus.network.bus().inject({0, {1, 0}, 2});  // NMT start
+  bus.pass(10 * millisecond);
+  bus.frames.clear();
+  bus.run("busoff 500ms");
+  CHECK(bus.read(0x2101) == "no answer");
+  CHECK(bus.received(CO_IF_FRM_ERROR | 0x088).size() == 32);
+  CHECK(bus.received(0x585).empty());
+  bus.frames.clear();
+  bus.pass(600 * millisecond);
+  CHECK(bus.received(0x085) == std::vector<Bytes>{{0x40, 0x81, 0x11, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0}});
+  CHECK(bus.read(0x2101) == "0");
+  CHECK(CONmtGetMode(&bus.simulation.device(0).node().stack().Nmt) == CO_PREOP);
+  bus.run("busoff");
+  bus.pass(2 * second);
+  CHECK(bus.read(0x2101) == "no answer");
+  bus.run("busoff off");
+  CHECK(bus.read(0x2101) == "0");
+  bus.run("busoff");
+  bus.run("reboot");
+  bus.pass(10 * millisecond);
+  CHECK(bus.read(0x2101) == "0");
 }
 
 TEST_CASE("simulate: lost frames depend on the seed only") {

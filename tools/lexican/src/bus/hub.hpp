@@ -9,7 +9,7 @@
 ///   server, first:        "lexican-hub 1 simulated", "lexican-hub 1 simulated BIT/S" if it is paced, or
 ///                         "lexican-hub 1 physical BIT/S" of an adapter that is shared
 ///   frame, both ways:     'F', length, 2 bytes 0, CAN-ID with flags (4 bytes), time (8 bytes, µs since 1970; 0 to the
-///                         server), 8 bytes of data
+///                         server), 8 bytes of data; to a simulated hub also an error frame, 2000 0088h only
 ///   server, frames lost:  'L', 3 bytes 0, their number (4 bytes)
 ///
 /// A paced hub, hub:NAME@RATE, has the timing of a wire of that rate: one frame at a time, as long as its bits take; of
@@ -77,7 +77,7 @@ class HubServer {
   };
 
   void accept_clients();
-  static bool read_from(Client& from, Micros now);
+  bool read_from(Client& from, Micros now) const;
   void transmit();
   void transmit_paced(Micros now);
   Client* arbitration_winner(Micros start);

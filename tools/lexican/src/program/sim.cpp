@@ -30,7 +30,8 @@ struct SimOptions {
 /// A bus in real time.
 class RealGround : public simulate::Ground {
  public:
-  RealGround(host_bus::Bus& bus, const Interruption& interruption) : ports_(bus), interruption_(interruption) {}
+  RealGround(host_bus::Bus& bus, const Interruption& interruption)
+      : bus_(bus), ports_(bus), interruption_(interruption) {}
 
   Can add_can() override {
     hosts_.push_back(std::make_unique<BusHost>(ports_.add(), interruption_, BusHost::Role::device));
@@ -38,8 +39,10 @@ class RealGround : public simulate::Ground {
   }
   Timer add_timer() override { return hosts_.back()->device_timer(); }
   Micros now() override { return host_bus::clock_now(CLOCK_MONOTONIC); }
+  bool carries_error_frames() override { return !bus_.is_physical(); }
 
  private:
+  host_bus::Bus& bus_;
   simulate::Ports ports_;
   const Interruption& interruption_;
   std::vector<std::unique_ptr<BusHost>> hosts_;

@@ -38,6 +38,7 @@ class Device {
   /// Returns what is wrong with the dictionary although the node runs; empty: nothing.
   const std::string& fault() const { return fault_; }
   Node& node() { return *node_; }
+  bool has_node() const { return node_ != nullptr; }  ///< false within start() and power_cycle()
   Dictionary& dictionary() { return dictionary_; }
   const describe::Description& description() const { return description_; }
 

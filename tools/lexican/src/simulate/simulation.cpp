@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <sstream>
 
+#include "simulate/arguments.hpp"
+#include "simulate/faults.hpp"
 #include "simulate/profile.hpp"
-#include "text/number.hpp"
 
 namespace lexican::simulate {
 namespace {
@@ -20,85 +19,41 @@ constexpr Micros signal_interval = 10 * millisecond;
 constexpr const char* commands =
     "set OBJECT VALUE | set OBJECT ramp FROM TO TIME | set OBJECT sine LOW HIGH TIME | get OBJECT\n"
     "emcy CODE | emcy 0 | abort OBJECT CODE | abort OBJECT off\n"
+    "wrong-length [N] | wrong-length off | wrong-toggle | wrong-toggle off | hang-sdo [TIME] | hang-sdo off\n"
+    "same-id | same-id off | busoff [TIME] | busoff off | flood ID [RATE] | flood off\n"
     "drop 5% | double 5% | delay 20ms | off TIME | reboot\n"
     "node ID | after TIME COMMAND | quit";
-
-std::vector<std::string> words_of(const std::string& line) {
-  std::vector<std::string> words;
-  std::string word;
-  bool is_quoted = false;
-  bool has_word = false;
-  for (const char c : line) {
-    if (c == '"') {
-      is_quoted = !is_quoted;
-      has_word = true;
-    } else if (!is_quoted && (c == ' ' || c == '\t' || c == '\r')) {
-      if (has_word) {
-        words.push_back(word);
-      }
-      word.clear();
-      has_word = false;
-    } else {
-      word += c;
-      has_word = true;
-    }
-  }
-  if (has_word) {
-    words.push_back(word);
-  }
-  return words;
-}
-
-/// Parses a real number that is the whole text, or all but a unit.
-std::optional<double> real_in(std::string_view text, std::string_view& unit) {
-  double number = 0;
-  const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  unit = std::string_view(next, static_cast<std::size_t>(text.data() + text.size() - next));
-  return error == std::errc() && std::isfinite(number) ? std::optional(number) : std::nullopt;
-}
-
-/// Parses 3s, 500ms, 2min.
-std::optional<Micros> time_in(std::string_view text) {
-  std::string_view unit;
-  const std::optional<double> number = real_in(text, unit);
-  const double factor = unit == "ms" ? 1e3 : unit == "s" ? 1e6 : unit == "min" ? 60e6 : 0;
-  const bool is_time = number && factor != 0 && *number >= 0 && *number * factor < 1e15;
-  return is_time ? std::optional(static_cast<Micros>(*number * factor)) : std::nullopt;
-}
-
-/// Parses 5%.
-std::optional<double> part_in(std::string_view text) {
-  std::string_view unit;
-  const std::optional<double> number = real_in(text, unit);
-  return number && unit == "%" && *number >= 0 && *number <= 100 ? std::optional(*number / 100) : std::nullopt;
-}
-
-std::optional<std::uint32_t> hex_in(std::string_view text) {
-  std::uint64_t number = 0;
-  if (text.substr(0, 2) == "0x") {
-    text.remove_prefix(2);
-  } else if (!text.empty() && text.back() == 'h') {
-    text.remove_suffix(1);
-  }
-  return codict::parse_hex(text, number) && number <= UINT32_MAX ? std::optional(static_cast<std::uint32_t>(number))
-                                                                 : std::nullopt;
-}
 
 }  // namespace
 
 /// A device with its connection to the bus.
 struct Simulation::Member {
-  Member(Ground& ground, std::uint64_t seed) : can(ground.add_can(), seed, [&ground] { return ground.now(); }) {}
+  Member(Ground& ground, std::uint64_t seed)
+      : can(ground.add_can(), seed, [&ground] { return ground.now(); }),
+        timer(ground.add_timer()),
+        faults(ground, can) {}
 
+  /// Starts a device, instead of the present one.
+  /// \retval text  why it cannot run; empty: it runs
+  std::string start() {
+    const std::string fault = device->start();
+    if (fault.empty()) {
+      behaviours.start(*device);
+    }
+    return fault;
+  }
   /// Sets a value by a command.
   bool put(std::uint16_t index, std::uint8_t sub_index, const Bytes& value) {
     return behaviours.commanded(index, sub_index, value) || device->set(index, sub_index, value);
   }
 
   DisturbedCan can;
+  Timer timer;
+  Faults faults;
   std::unique_ptr<Device> device;
   Behaviours behaviours;
-  Micros on_again = 0;  ///< time of the end of "off"; 0: it is on
+  Member* twin = nullptr;  ///< the device with the same node-ID
+  Micros on_again = 0;     ///< time of the end of "off"; 0: it is on
 };
 
 /// A value that changes with time.
@@ -118,19 +73,27 @@ struct Simulation::Later {
 };
 
 Simulation::Simulation(Ground& ground, const SimulationSetup& setup, FindObject find)
-    : ground_(ground), find_(std::move(find)) {
+    : ground_(ground), setup_(setup), find_(std::move(find)) {
   for (unsigned n = 0; n < setup.count; ++n) {
-    members_.push_back(std::make_unique<Member>(ground, setup.seed + n));
-    Member& member = *members_.back();
     const bool has_id = setup.node_id != no_node_id;
     DeviceSetup of_device;
     of_device.node_id = has_id ? static_cast<std::uint8_t>(setup.node_id + n) : no_node_id;
     of_device.serial = setup.serial != 0 ? setup.serial + n : n;
     of_device.storage = setup.storage.empty() || n == 0 ? setup.storage : fmt::format("{}.{}", setup.storage, n + 1);
-    of_device.can = member.can.can();
-    of_device.timer = ground.add_timer();
-    member.device = std::make_unique<Device>(setup.description, setup.file, of_device);
+    make_device(add_member(), of_device);
   }
+}
+
+Simulation::Member& Simulation::add_member() {
+  members_.push_back(std::make_unique<Member>(ground_, setup_.seed + members_.size()));
+  return *members_.back();
+}
+
+void Simulation::make_device(Member& member, DeviceSetup setup) {
+  setup.can = member.can.can();
+  setup.timer = member.timer;
+  member.device = std::make_unique<Device>(setup_.description, setup_.file, setup);
+  member.faults.start(*member.device);
 }
 
 Simulation::~Simulation() = default;
@@ -139,11 +102,10 @@ Device& Simulation::device(std::size_t n) { return *members_[n]->device; }
 
 std::string Simulation::start() {
   for (const std::unique_ptr<Member>& member : members_) {
-    const std::string fault = member->device->start();
+    const std::string fault = member->start();
     if (!fault.empty()) {
       return fault;
     }
-    member->behaviours.start(*member->device);
   }
   return {};
 }
@@ -307,6 +269,12 @@ std::string Simulation::execute_words(Member& member, const std::vector<std::str
     }
     return {};
   }
+  if (verb == "same-id") {
+    return double_node_id(member, words);
+  }
+  if (Faults::has(verb)) {
+    return member.faults.execute(words);
+  }
   if (verb == "reboot" && words.size() == 1) {
     device.power_cycle();
     return {};
@@ -333,6 +301,33 @@ std::string Simulation::execute_words(Member& member, const std::vector<std::str
     return {};
   }
   return fmt::format("unknown command, or wrong arguments: {}\n{}", verb, commands);
+}
+
+/// Starts a second device with the node-ID of another one, or switches it off.
+std::string Simulation::double_node_id(Member& member, const std::vector<std::string>& words) {
+  const bool is_end = words.size() == 2 && words[1] == "off";
+  if (words.size() > 1 && !is_end) {
+    return "same-id needs: nothing, or off";
+  }
+  if (is_end) {
+    if (member.twin != nullptr) {
+      member.twin->can.is_off = true;
+    }
+    return {};
+  }
+  DeviceSetup setup;
+  setup.node_id = member.device->node().stack().NodeId;
+  if (setup.node_id == no_node_id) {
+    return "same-id needs: a device with a node-ID; give it one by LSS first";
+  }
+  const std::optional<Bytes> serial = member.device->get(0x1018, 4);
+  setup.serial = static_cast<std::uint32_t>((serial ? number_of(*serial) : 0) + setup_.count);  // not that of another
+  if (member.twin == nullptr) {
+    member.twin = &add_member();
+  }
+  member.twin->can.is_off = false;
+  make_device(*member.twin, setup);
+  return member.twin->start();
 }
 
 std::string Simulation::set(Member& member, const std::vector<std::string>& words) {

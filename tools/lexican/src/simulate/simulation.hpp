@@ -10,23 +10,13 @@
 
 #include "simulate/device.hpp"
 #include "simulate/disturbance.hpp"
+#include "simulate/ground.hpp"
 
 namespace lexican::simulate {
 
 /// Finds an object by index or name. \retval false  \a why says why
 using FindObject = std::function<bool(const std::string& word, const describe::Description& description,
                                       std::uint16_t& index, std::uint8_t& sub_index, std::string& why)>;
-
-/// Bus and clock of the devices: real ones, or virtual ones.
-class Ground {
- public:
-  virtual ~Ground() = default;
-  /// Returns the connection of a further device to the bus.
-  virtual Can add_can() = 0;
-  virtual Timer add_timer() = 0;
-  /// Returns the time since any epoch.
-  virtual Micros now() = 0;
-};
 
 struct SimulationSetup {
   describe::Description description;
@@ -65,6 +55,9 @@ class Simulation {
   struct Signal;
   struct Later;
 
+  Member& add_member();
+  void make_device(Member& member, DeviceSetup setup);
+  std::string double_node_id(Member& member, const std::vector<std::string>& words);
   std::string set(Member& member, const std::vector<std::string>& words);
   std::string execute_words(Member& member, const std::vector<std::string>& words);
   void update_signals(Micros now);
@@ -72,6 +65,7 @@ class Simulation {
   void run_later(Micros now);
 
   Ground& ground_;
+  SimulationSetup setup_;
   FindObject find_;
   std::vector<std::unique_ptr<Member>> members_;
   std::vector<Signal> signals_;
