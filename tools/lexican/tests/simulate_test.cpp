@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Devices that are simulated from their descriptions, on a virtual bus with our own client.
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <map>
@@ -388,6 +390,133 @@ TEST_CASE("simulate: bus-off, and the recovery from it") {
   bus.run("reboot");
   bus.pass(10 * millisecond);
   CHECK(bus.read(0x2101) == "0");
+}
+
+TEST_CASE("simulate: a CSV is played") {
+  const test::Directory directory;
+  const std::string csv = directory / "speed.csv";
+  const std::string set = "set 2001 csv " + csv;
+  SimulatedDevices bus(simulated_eds, 5, 1);
+  test::write_bytes(csv, "time,speed,\"of, all\"\r\n0,10,1\r\n0.1,20.6,\r\n\r\n2e-1,,3\n0.3,30,4");
+  bus.run(set);
+  bus.pass(50 * millisecond);
+  CHECK(bus.read(0x2001) == "10");
+  bus.pass(150 * millisecond);
+  CHECK(bus.read(0x2001) == "21");  // rounded; the row without a value changes nothing
+  bus.pass(150 * millisecond);
+  CHECK(bus.read(0x2001) == "30");
+  bus.run("set 2001 7");
+  bus.pass(400 * millisecond);
+  CHECK(bus.read(0x2001) == "7");  // it has ended
+  for (const char* const column : {" \"of, all\" repeat", " 3 repeat"}) {
+    bus.run(set + column);
+    bus.pass(50 * millisecond);
+    CHECK(bus.read(0x2001) == "1");
+    bus.pass(200 * millisecond);
+    CHECK(bus.read(0x2001) == "3");
+    bus.pass(100 * millisecond);
+    CHECK(bus.read(0x2001) == "1");
+  }
+  test::write_bytes(csv, "Zeit;Wert\n0;0,5\n0,1;-2,5\n");
+  bus.run("set 2003 csv " + csv + " Wert");
+  bus.run("set 2001 -40");
+  bus.pass(50 * millisecond);
+  CHECK(bus.read(0x2003) == "0.5");
+  bus.pass(100 * millisecond);
+  CHECK(bus.read(0x2003) == "-2.5");
+
+  const std::pair<const char*, const char*> wrong[] = {
+      {"", " has no values"},
+      {"time\n0\n", ": the first line has no titles of two columns"},
+      {"time,a\n", " has no values"},
+      {"time,a\n0,1\n1\n", ", line 3: has no column 2"},
+      {"time,a\n0,1\nx,1\n", ", line 3: 'x' is no time in s"},
+      {"time,a\n-1,1\n", ", line 2: '-1' is no time in s"},
+      {"time,a\n2,1\n1,1\n", ", line 3: '1' is less than the time before"},
+      {"time,a\n2,one\n", ", line 2: 'one' is no integer"},
+      {"time,a\n2,1e9\n", ", line 2: 1000000000 is out of range"},
+  };
+  for (const auto& row : wrong) {
+    test::write_bytes(csv, row.first);
+    const std::string answer = bus.fault_of(set);
+    CHECK_MESSAGE(answer.find(csv + row.second) == 0, row.first << ": " << answer);
+  }
+  test::write_bytes(csv, "time,a\n0,1\n");
+  CHECK(bus.fault_of(set + " b") == csv + " has no column b");
+  CHECK(bus.fault_of(set + " 1") == csv + " has no column 1");
+  CHECK(bus.fault_of(set + " repeat") == csv + " cannot be repeated: it lasts less than 10 ms");
+  CHECK(bus.fault_of(set + " 2 3").find("set OBJECT csv needs") == 0);
+  CHECK(bus.fault_of("set 2001 csv /").find("/ is a directory") == 0);
+  CHECK(bus.fault_of("set 2001 csv /nonexistent").find("/nonexistent: No such file") == 0);
+  test::write_bytes(csv, "time,a\n" + std::string(9U << 20, '\n'));
+  CHECK(bus.fault_of(set).find(csv + " has more than 8 MiB") == 0);
+  CHECK(bus.read(0x2001) == "-40");
+}
+
+TEST_CASE("simulate: JSON lines of a file and of a FIFO are played") {
+  const test::Directory directory;
+  const std::string file = directory / "lines";
+  SimulatedDevices bus(simulated_eds, 5, 2);
+  std::vector<std::string> notes;
+  bus.simulation.on_note([&](const std::string& text) { notes.push_back(text); });
+  test::write_bytes(file,
+                    "{\"2001\": 5, \"2005\": \"two words\"}\n"
+                    "\n"
+                    "{\"2001\": 6.4, \"time\": 0.1, \"2003\": -1.5}\r\n"
+                    "{\"node\": 6, \"2001\": 66}\n"
+                    "{\"time\": 0.2, \"command\": \"set 2001 8\"}");
+  bus.run("play " + file);
+  bus.pass(50 * millisecond);
+  CHECK(bus.read(0x2001) == "5");
+  CHECK(bus.read(0x2005) == "\"two words\"");
+  bus.pass(100 * millisecond);
+  CHECK(bus.read(0x2001) == "6");
+  CHECK(bus.read(0x2003) == "-1.5");
+  CHECK(bus.simulation.device(1).get(0x2001, 0) == Bytes{66, 0});
+  bus.pass(100 * millisecond);
+  CHECK(bus.read(0x2001) == "8");
+  CHECK(notes.empty());
+
+  const std::string start = "{\"2001\": ";
+  test::write_bytes(file, "x\n[1]\n" + start + "null}\n" + start + "70000}\n{\"time\": -1}\n{\"node\": 300}\n" +
+                              "{\"node\": 9}\n" + std::string(70000, ' ') + "\n" + start + "9}\n" +
+                              std::string(200000, 'x'));
+  bus.run("play " + file);
+  bus.pass(20 * millisecond);
+  CHECK(bus.read(0x2001) == "9");
+  const std::string place = file + ", line ";
+  CHECK(notes == std::vector<std::string>{
+                     place + "1: is no JSON object, such as {\"6064\": 1000}",
+                     place + "2: is no JSON object, such as {\"6064\": 1000}",
+                     place + "3: '2001' is no number, text, true or false",
+                     place + "4: 2001h Temperature: 70000 is out of range, -32768...32767",
+                     place + "5: \"time\" is no time in s",
+                     place + "6: \"node\" is no node-ID",
+                     place + "7: no device has the node-ID 9",
+                     place + "8: is longer than 64 KiB",
+                     place + "10: is longer than 64 KiB",
+                 });
+  notes.clear();
+
+  const std::string fifo = directory / "fifo";
+  REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+  bus.run("play " + fifo);
+  bus.pass(20 * millisecond);
+  for (const char* const value : {"11", "12"}) {
+    const int writer = open(fifo.c_str(), O_WRONLY | O_CLOEXEC);
+    const auto put = [&](const std::string& text) { REQUIRE(write(writer, text.data(), text.size()) > 0); };
+    put(start);
+    bus.pass(20 * millisecond);
+    CHECK(bus.read(0x2001) != value);
+    put(value + std::string("}"));
+    close(writer);
+    bus.pass(20 * millisecond);
+    CHECK(bus.read(0x2001) == value);
+  }
+  bus.run("play off");
+  CHECK(notes.empty());
+  CHECK(bus.fault_of("play /nonexistent").find("/nonexistent: No such file") == 0);
+  CHECK(bus.fault_of("play").find("unknown command") == 0);
 }
 
 TEST_CASE("simulate: lost frames depend on the seed only") {

@@ -115,6 +115,7 @@ std::string introduction(simulate::Device& device, const std::string& bus, unsig
 int run_devices(const SimOptions& options, simulate::Simulation& simulation, host_bus::Bus& bus,
                 const Interruption& interruption) {
   SimInput input;
+  simulation.on_note(print_note);
   const auto execute = [&](const std::string& line) {
     bool is_fault = false;
     const std::string answer = simulation.execute(line, is_fault);

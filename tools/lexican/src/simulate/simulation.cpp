@@ -9,6 +9,7 @@
 #include "simulate/arguments.hpp"
 #include "simulate/faults.hpp"
 #include "simulate/profile.hpp"
+#include "simulate/sources.hpp"
 
 namespace lexican::simulate {
 namespace {
@@ -17,7 +18,8 @@ using EntryKey = std::pair<std::uint16_t, std::uint8_t>;  // index and sub-index
 
 constexpr Micros signal_interval = 10 * millisecond;
 constexpr const char* commands =
-    "set OBJECT VALUE | set OBJECT ramp FROM TO TIME | set OBJECT sine LOW HIGH TIME | get OBJECT\n"
+    "set OBJECT VALUE | set OBJECT ramp FROM TO TIME | set OBJECT sine LOW HIGH TIME\n"
+    "set OBJECT csv FILE [COLUMN] [repeat] | play FILE | play off | get OBJECT\n"
     "emcy CODE | emcy 0 | abort OBJECT CODE | abort OBJECT off\n"
     "wrong-length [N] | wrong-length off | wrong-toggle | wrong-toggle off | hang-sdo [TIME] | hang-sdo off\n"
     "same-id | same-id off | busoff [TIME] | busoff off | flood ID [RATE] | flood off\n"
@@ -64,7 +66,10 @@ struct Simulation::Signal {
   double low;
   double high;
   Micros begin;
-  Micros time;  ///< of the ramp, or period of the sine
+  Micros time;                       ///< of the ramp, or period of the sine
+  std::vector<TimedValue> values{};  ///< of a CSV; empty: a ramp or a sine
+  bool is_repeated = false;          ///< the CSV
+  std::size_t next = 0;              ///< position in values
 };
 
 struct Simulation::Later {
@@ -113,6 +118,7 @@ std::string Simulation::start() {
 Micros Simulation::process() {
   const Micros now = ground_.now();
   run_later(now);
+  const Micros until_line = run_played(now);
   switch_on(now);
   for (const std::unique_ptr<Member>& member : members_) {
     member->can.process();
@@ -121,7 +127,7 @@ Micros Simulation::process() {
     update_signals(now);
     updated_ = now;
   }
-  Micros wait = signals_.empty() ? second : signal_interval;
+  Micros wait = std::min(until_line, signals_.empty() ? second : signal_interval);
   bool has_changed = false;
   for (const std::unique_ptr<Member>& member : members_) {
     has_changed = member->device->node().process() || has_changed;
@@ -147,7 +153,62 @@ void Simulation::run_later(Micros now) {
     const std::string line = later_[n].line;
     later_.erase(later_.begin() + static_cast<std::ptrdiff_t>(n));
     bool ignored = false;
-    execute(line, ignored);
+    note(execute(line, ignored));
+  }
+}
+
+/// Executes the lines of the playback whose time has come.
+/// \retval time until it has to be called again
+Micros Simulation::run_played(Micros now) {
+  constexpr int at_most = 100;  // so that the devices continue
+  for (int n = 0; playback_ != nullptr && n < at_most; ++n) {
+    const std::optional<PlayedLine> line = playback_->next(now);
+    if (!line) {
+      const Micros due = playback_->due(now);
+      if (playback_->has_ended()) {
+        playback_.reset();
+        return for_ever;
+      }
+      return due > now ? due - now : 0;
+    }
+    const std::string text = execute_played(*line);
+    note(text.empty() ? text : line->place + ": " + text);
+  }
+  return playback_ != nullptr ? 0 : for_ever;
+}
+
+std::string Simulation::execute_played(const PlayedLine& line) {
+  if (!line.fault.empty()) {
+    return line.fault;
+  }
+  const std::size_t chosen = chosen_;
+  if (line.node && !choose(std::to_string(*line.node))) {
+    return fmt::format("no device has the node-ID {}", *line.node);
+  }
+  std::string text;
+  for (const auto& [object, value] : line.values) {
+    const std::string fault = set(*members_[chosen_], {"set", object, value}, true);
+    text += !text.empty() && !fault.empty() ? '\n' + fault : fault;
+  }
+  bool ignored = false;
+  const std::string answer = line.command.empty() ? "" : execute(line.command, ignored);
+  chosen_ = line.node ? chosen : chosen_;
+  return text + (!text.empty() && !answer.empty() ? "\n" : "") + answer;
+}
+
+bool Simulation::choose(const std::string& node) {
+  for (std::size_t n = 0; n < members_.size(); ++n) {
+    if (std::to_string(members_[n]->device->node().stack().NodeId) == node) {
+      chosen_ = n;
+      return true;
+    }
+  }
+  return false;
+}
+
+void Simulation::note(const std::string& text) {
+  if (!text.empty() && note_) {
+    note_(text);
   }
 }
 
@@ -161,23 +222,48 @@ void Simulation::switch_on(Micros now) {
   }
 }
 
+/// Returns the value of a ramp or a sine.
+double Simulation::level_of(const Signal& signal, Micros now) {
+  const double part = static_cast<double>(now - signal.begin) / static_cast<double>(signal.time);
+  constexpr double circle = 6.283185307179586;
+  const double middle = (signal.low + signal.high) / 2;
+  return signal.is_sine ? middle + (signal.high - middle) * std::sin(circle * part)
+                        : signal.low + (signal.high - signal.low) * std::min(part, 1.0);
+}
+
+/// Advances a CSV.
+/// \retval text  the value whose time has come; empty: that of the last call continues
+std::string Simulation::next_of(Signal& signal, Micros now) {
+  const std::vector<TimedValue>& values = signal.values;
+  const Micros period = values.back().time - values.front().time;
+  while (signal.is_repeated && signal.begin + values.back().time <= now) {  // the last row is the end
+    signal.begin += period * std::max<Micros>((now - signal.begin - values.back().time) / period, 1);
+    signal.next = 0;
+  }
+  const std::size_t before = signal.next;
+  while (signal.next < values.size() && signal.begin + values[signal.next].time <= now) {
+    ++signal.next;
+  }
+  return signal.next != before ? values[signal.next - 1].text : "";
+}
+
 void Simulation::update_signals(Micros now) {
   for (std::size_t n = 0; n < signals_.size();) {
-    const Signal signal = signals_[n];
-    const double part = static_cast<double>(now - signal.begin) / static_cast<double>(signal.time);
-    constexpr double circle = 6.283185307179586;
-    const double middle = (signal.low + signal.high) / 2;
-    const bool has_ended = !signal.is_sine && part >= 1;
-    const double value = signal.is_sine ? middle + (signal.high - middle) * std::sin(circle * part)
-                                        : signal.low + (signal.high - signal.low) * std::min(part, 1.0);
+    Signal& signal = signals_[n];
+    const bool is_csv = !signal.values.empty();
     Device& device = *signal.member->device;
     const std::optional<ValueType> type = device.description().type_of(signal.key.first, signal.key.second);
     const bool is_real = type && type->kind == ValueType::Kind::real;
-    const Encoded encoded =
-        type ? encode(*type, is_real ? fmt::format("{}", value) : fmt::format("{}", std::llround(value))) : Encoded{};
+    const double level = is_csv ? 0 : level_of(signal, now);
+    const std::string text = is_csv    ? next_of(signal, now)
+                             : is_real ? fmt::format("{}", level)
+                                       : fmt::format("{}", std::llround(level));
+    const Encoded encoded = type && !text.empty() ? encode_rounded(*type, text) : Encoded{{}, "no value"};
     if (encoded.fault.empty() && device.get(signal.key.first, signal.key.second) != encoded.bytes) {
       signal.member->put(signal.key.first, signal.key.second, encoded.bytes);
     }
+    const bool has_ended =
+        is_csv ? signal.next == signal.values.size() : !signal.is_sine && now - signal.begin >= signal.time;
     if (has_ended) {
       signals_.erase(signals_.begin() + static_cast<std::ptrdiff_t>(n));
     } else {
@@ -210,7 +296,7 @@ std::string Simulation::execute_words(Member& member, const std::vector<std::str
   const auto wrong = [&](const char* usage) { return fmt::format("{} needs: {}", verb, usage); };
   const std::string first = words.size() > 1 ? words[1] : "";
   if (verb == "set" && words.size() >= 3) {
-    return set(member, words);
+    return set(member, words, false);
   }
   if (verb == "get" && words.size() == 2) {
     std::uint16_t index = 0;
@@ -272,6 +358,9 @@ std::string Simulation::execute_words(Member& member, const std::vector<std::str
   if (verb == "same-id") {
     return double_node_id(member, words);
   }
+  if (verb == "play" && words.size() == 2) {
+    return play(first);
+  }
   if (Faults::has(verb)) {
     return member.faults.execute(words);
   }
@@ -280,13 +369,7 @@ std::string Simulation::execute_words(Member& member, const std::vector<std::str
     return {};
   }
   if (verb == "node" && words.size() == 2) {
-    for (std::size_t n = 0; n < members_.size(); ++n) {
-      if (std::to_string(members_[n]->device->node().stack().NodeId) == first) {
-        chosen_ = n;
-        return {};
-      }
-    }
-    return "no device has the node-ID " + first;
+    return choose(first) ? "" : "no device has the node-ID " + first;
   }
   if (verb == "after" && words.size() >= 3) {
     const std::optional<Micros> time = time_in(first);
@@ -330,7 +413,40 @@ std::string Simulation::double_node_id(Member& member, const std::vector<std::st
   return member.twin->start();
 }
 
-std::string Simulation::set(Member& member, const std::vector<std::string>& words) {
+/// Executes play.
+std::string Simulation::play(const std::string& file) {
+  auto playback = file != "off" ? std::make_unique<Playback>(file, ground_.now()) : nullptr;
+  std::string why;
+  if (playback != nullptr && !playback->open(why)) {
+    return why;
+  }
+  playback_ = std::move(playback);
+  return {};
+}
+
+/// Executes set OBJECT csv FILE [COLUMN] [repeat].
+std::string Simulation::set_csv(Signal signal, ValueType type, std::vector<std::string> words) {
+  signal.is_repeated = words.size() > 4 && words.back() == "repeat";
+  if (signal.is_repeated) {
+    words.pop_back();
+  }
+  if (words.size() < 4 || words.size() > 5) {
+    return "set OBJECT csv needs a file, a column and repeat, such as set 606C csv speed.csv velocity repeat";
+  }
+  std::string why;
+  signal.values = read_csv(words[3], words.size() == 5 ? words[4] : "", type, why);
+  if (!why.empty()) {
+    return why;
+  }
+  if (signal.is_repeated && signal.values.back().time - signal.values.front().time < signal_interval) {
+    return words[3] + " cannot be repeated: it lasts less than 10 ms";
+  }
+  signals_.push_back(std::move(signal));
+  return {};
+}
+
+/// \a is_played: the third word is a value, which may be rounded
+std::string Simulation::set(Member& member, const std::vector<std::string>& words, bool is_played) {
   Device& device = *member.device;
   const describe::Description& description = device.description();
   std::uint16_t index = 0;
@@ -341,11 +457,15 @@ std::string Simulation::set(Member& member, const std::vector<std::string>& word
   }
   const EntryKey key{index, sub_index};
   const std::string object = description.object(index, sub_index);
-  const bool is_signal = words[2] == "ramp" || words[2] == "sine";
+  const bool is_csv = !is_played && words.size() > 3 && words[2] == "csv";
+  const bool is_signal = !is_played && (words[2] == "ramp" || words[2] == "sine");
   signals_.erase(std::remove_if(signals_.begin(), signals_.end(),
                                 [&](const Signal& signal) { return signal.member == &member && signal.key == key; }),
                  signals_.end());
   const std::optional<ValueType> type = description.type_of(index, sub_index);
+  if (is_csv && type) {
+    return set_csv({&member, key, false, 0, 0, ground_.now(), 0}, *type, words);
+  }
   if (is_signal) {
     std::string_view rest;
     const std::optional<double> low = words.size() == 6 ? real_in(words[3], rest) : std::nullopt;
@@ -362,7 +482,10 @@ std::string Simulation::set(Member& member, const std::vector<std::string>& word
     signals_.push_back({&member, key, words[2] == "sine", *low, *high, ground_.now(), *time});
     return {};
   }
-  const Encoded encoded = type && words.size() == 3 ? encode(*type, words[2]) : Encoded{{}, "it needs one value"};
+  Encoded encoded{{}, "it needs one value"};
+  if (type && words.size() == 3) {
+    encoded = is_played ? encode_rounded(*type, words[2]) : encode(*type, words[2]);
+  }
   if (!encoded.fault.empty()) {
     return object + ": " + encoded.fault;
   }

@@ -11,6 +11,7 @@
 #include "simulate/device.hpp"
 #include "simulate/disturbance.hpp"
 #include "simulate/ground.hpp"
+#include "simulate/sources.hpp"
 
 namespace lexican::simulate {
 
@@ -46,6 +47,8 @@ class Simulation {
   /// Executes a command, see sim.md.
   /// \retval text  an answer or a fault; empty: done
   std::string execute(const std::string& line, bool& is_fault);
+  /// Sets a function that is called with the answers and faults of commands that are executed later.
+  void on_note(std::function<void(const std::string&)> function) { note_ = std::move(function); }
   bool has_ended() const { return has_ended_; }
   Device& device(std::size_t n);
   std::size_t devices() const { return members_.size(); }
@@ -58,11 +61,19 @@ class Simulation {
   Member& add_member();
   void make_device(Member& member, DeviceSetup setup);
   std::string double_node_id(Member& member, const std::vector<std::string>& words);
-  std::string set(Member& member, const std::vector<std::string>& words);
+  std::string set(Member& member, const std::vector<std::string>& words, bool is_played);
+  std::string set_csv(Signal signal, ValueType type, std::vector<std::string> words);
+  std::string play(const std::string& file);
+  std::string execute_played(const PlayedLine& line);
+  bool choose(const std::string& node);
+  void note(const std::string& text);
+  static double level_of(const Signal& signal, Micros now);
+  static std::string next_of(Signal& signal, Micros now);
   std::string execute_words(Member& member, const std::vector<std::string>& words);
   void update_signals(Micros now);
   void switch_on(Micros now);
   void run_later(Micros now);
+  Micros run_played(Micros now);
 
   Ground& ground_;
   SimulationSetup setup_;
@@ -70,6 +81,8 @@ class Simulation {
   std::vector<std::unique_ptr<Member>> members_;
   std::vector<Signal> signals_;
   std::vector<Later> later_;
+  std::unique_ptr<Playback> playback_;
+  std::function<void(const std::string&)> note_;
   std::size_t chosen_ = 0;  ///< member that commands mean
   bool has_ended_ = false;
   Micros updated_ = 0;
