@@ -79,7 +79,7 @@ all_cases() {
   check "installation of the bus tool" install_program lexican
   check "docs/pictures shows the output of codict check" same_screen "$of/codict"
   run_tap "$root/tools/codict/tests/page_test.py" "$of/codict" "$root/tools/codict/tests/fixtures"
-  for script in pages terminal; do
+  for script in pages picture terminal; do
     run_tap "$root/tools/lexican/tests/$script.py" "$build/codict/tools/lexican/lexican" \
       "$build/codict/demo/linux_node/lexican-demo-node"
   done

@@ -1051,6 +1051,99 @@ TEST_CASE("lexican mon: a record has the same events as the log") {
   }
 }
 
+namespace {
+
+/// Returns the data of a page of --html.
+Json data_of_page(const std::string& path) {
+  const std::string page = bytes_of(path);
+  const std::string begin = "<script id=\"data\" type=\"application/json\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  return Json::parse(page.substr(from, page.find('<', from) - from), nullptr, false);
+}
+
+}  // namespace
+
+TEST_CASE("lexican mon: --html writes a page with the lines that are shown") {
+  const LogBench bench;
+  const std::string page = bench.directory / "fault.html";
+  check(bench.mon({"--html", page}), 0, bench.mon({}).out, "");
+  const Json all = data_of_page(page);
+  CHECK(all["source"] == "fault.log");
+  CHECK(all["frames"] == 13);
+  CHECK(all["errors"] == 1);
+  CHECK(all["duration"] == 101'000);
+  CHECK(all["lines"]["time"].size() == 10);
+  CHECK(all["lines"]["fault"] == Json{0, 0, 0, 0, 0, 0, 1, 1, 1, 0});
+  CHECK(all["texts"][6] == "write 2008h Mode refused: 0800 0022h data cannot be stored: device state  1.2 ms");
+  CHECK(all["series"].size() == 3);
+  CHECK(all["series"][0]["name"] == "Temperature");
+  CHECK(all["series"][0]["value"] == Json{-40});
+  CHECK(all["causes"] == Json::array());
+
+  const std::string record = bench.directory / "record.log";
+  CHECK(bench
+            .mon({"--html", page, "--json", "--rate", "500k", "--log", record, "-n", "5", "--service", "pdo,sdo",
+                  "--object", "temperature"})
+            .status == 0);
+  const Json one = data_of_page(page);
+  CHECK(one["texts"] == Json{"TPDO1 Temperature = -40, Position = 1000"});
+  CHECK(one["rate"] == 500'000);
+  CHECK(one["series"].size() == 2);
+  CHECK(bytes_of(record).size() > 100);
+}
+
+TEST_CASE("lexican mon: --html says how many lines its page leaves out") {
+  const LogBench bench;
+  std::string lines;
+  for (unsigned n = 0; n < 100'007; ++n) {
+    lines += "(1000.000000) can0 185#01\n";
+  }
+  write_bytes(bench.log, lines);
+  const std::string page = bench.directory / "long.html";
+  const Ran ran = bench.run("mon", {bench.log, "--html", page});
+  CHECK(ran.status == 0);
+  CHECK(ran.err ==
+        "lexican: " + page + " leaves out 7 lines behind the first 100000; -n, --service and --object show fewer\n");
+}
+
+TEST_CASE("lexican mon: a page that cannot be written ends it at the start") {
+  const LogBench bench;
+  check(bench.mon({"--html", "/nonexistent/a.html"}), 2, "",
+        "lexican: /nonexistent/a.html cannot be written: No such file or directory\n");
+  check(bench.mon({"--html", bench.directory.path()}), 2, "", "lexican: --html needs the name of a file\n");
+  check(bench.mon({"--html", bench.log}), 2, "", "lexican: " + bench.log + " is read and cannot be the page, too\n");
+  CHECK(bytes_of(bench.log) == log_text);
+  const std::string page = bench.directory / "a.html";
+  check(bench.run("mon", {bench.directory / "none", "--html", page}), 2, "",
+        "lexican: " + bench.directory.path() + "/none: No such file or directory\n");
+  CHECK(!std::filesystem::exists(page));
+}
+
+TEST_CASE("lexican mon: --html draws the CSV of a recorder") {
+  const Bench bench;
+  const std::string csv = bench.directory / "speed.csv";
+  const std::string page = bench.directory / "speed.html";
+  write_bytes(csv, "# name: speed\n# object: 2110h:00\n# trigger: 5\n0;10\n5;30\n12;20\n");
+  check(bench.run("mon", {csv}), 2, "",
+        "lexican: " + csv + " begins like the CSV of a recorder, which --html FILE draws\n");
+  check(bench.run("mon", {csv, "--html", page}), 0, "", "");
+  const Json data = data_of_page(page);
+  CHECK(data["recorder"] == true);
+  CHECK(data["marks"] == Json::parse(R"([{"time":5000,"name":"trigger"}])"));
+  CHECK(data["series"] == Json::parse(R"([{"name":"speed","about":"2110h:00","unit":"","colour":"","node":0,
+                                           "time":[0,5000,12000],"value":[10,30,20]}])"));
+  std::filesystem::remove(page);
+  check(bench.run_with_input("mon", {"-", "--html", page}, csv), 0, "", "");
+  CHECK(data_of_page(page) == data);
+  check(bench.run("mon", {csv, "--html", page, "--log", bench.directory / "a.log"}), 2, "",
+        "lexican: " + csv + " is the CSV of a recorder, which has no frames for --log\n");
+  write_bytes(csv, "1;1\nabc\n");
+  check(bench.run("mon", {csv, "--html", page}), 2, "",
+        "lexican: " + csv +
+            ":2: no ';' in 'abc'; a line is 'time;value': read the plot in format 0 (CSV), not 1 (binary)\n");
+  CHECK(data_of_page(page) == data);
+}
+
 TEST_CASE("lexican mon: wrong use, and files that cannot be used") {
   const LogBench bench;
   const std::string asc = bench.directory / "old.asc";
@@ -1089,7 +1182,8 @@ TEST_CASE("lexican mon: a bus, until it is interrupted, and its record") {
   Bench bench{5};
   bench.add(12, "silent");
   const std::string record = bench.directory / "record.pcapng";
-  Process mon(bench.line("mon", {"--log", record}), bench.environment());
+  const std::string page = bench.directory / "record.html";
+  Process mon(bench.line("mon", {"--log", record, "--html", page}), bench.environment());
   mon.wait_for(" 12  heartbeat: pre-operational");
   check(bench.run("read", {"5", "1000"}), 0, "1000h:00 device type = 00020192h (u32)\n", "");
   mon.wait_for("  5  read 1000h:00 device type = 00020192h");
@@ -1099,6 +1193,9 @@ TEST_CASE("lexican mon: a bus, until it is interrupted, and its record") {
   CHECK(ran.err == "");
   CHECK(has(ran.out, ", 0 error frames, 0 lost\n"));
   CHECK(bench.run("mon", {record}).out == ran.out);
+  const Json data = data_of_page(page);
+  CHECK(data["source"] == bench.hub());
+  CHECK(data["lines"]["time"].size() == lines_of(events_of(ran.out)).size());
 }
 
 TEST_CASE("lexican scan: an interruption ends it") {

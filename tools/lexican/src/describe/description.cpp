@@ -298,6 +298,12 @@ std::optional<double> Description::number(std::uint16_t index, std::uint8_t sub_
   return raw && scale ? std::optional(scale->apply(*raw)) : raw;
 }
 
+std::string Description::unit_of(std::uint16_t index, std::uint8_t sub_index) const {
+  const codict::Entry* const entry = device_ != nullptr ? device_->find(index, sub_index) : nullptr;
+  const std::optional<Scale> scale = entry != nullptr ? scale_of(*entry) : std::nullopt;
+  return scale ? std::string(scale->unit) : std::string();
+}
+
 std::optional<Description> read_description(const std::string& path, std::string& why) {
   std::optional<codict::Source> source = codict::read_file(path, why);
   if (!source) {

@@ -48,6 +48,9 @@ class Description {
   /// none.
   std::optional<double> number(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) const;
 
+  /// Returns the unit of number(); empty if there is none.
+  std::string unit_of(std::uint16_t index, std::uint8_t sub_index) const;
+
  private:
   std::shared_ptr<const codict::Device> device_;
 };

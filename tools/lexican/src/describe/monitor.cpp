@@ -572,7 +572,8 @@ std::optional<PdoContent> Monitor::values_of(const CO_IF_FRM& frame, std::uint8_
     }
     const std::string name = description.name_of(index, sub_index);
     content.values.push_back({index, sub_index, name.empty() ? description.object(index, sub_index) : name,
-                              description.show(index, sub_index, bytes), description.number(index, sub_index, bytes)});
+                              description.show(index, sub_index, bytes), description.number(index, sub_index, bytes),
+                              description.unit_of(index, sub_index)});
   }
   return content;
 }

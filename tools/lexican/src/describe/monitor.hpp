@@ -44,6 +44,7 @@ struct PdoValue {
   std::string name;  ///< index and sub-index if it has none
   std::string text;  ///< with unit and name of the value
   std::optional<double> number;
+  std::string unit;  ///< of the number; empty: it has none
 };
 
 /// The values of a PDO that a frame transfers; without those of objects that a frame is too short for, and of dummies.

@@ -3,21 +3,30 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "bus/clock.hpp"
 #include "describe/monitor.hpp"
+#include "describe/picture.hpp"
+#include "describe/recorder_csv.hpp"
 #include "program/identity.hpp"
 #include "program/verb.hpp"
+#include "text/file.hpp"
 
 namespace lexican::program {
 namespace {
@@ -36,8 +45,17 @@ struct MonOptions {
   std::vector<Service> services;
   std::vector<std::string> objects;
   std::string record;  ///< --log
+  std::string page;    ///< --html
   bool shows_all = false;
 };
+
+/// Returns the text of an event, with the duration of a transfer.
+std::string text_of(const Event& event) {
+  const bool has_duration = event.sdo != nullptr && event.sdo->time > event.sdo->begin;
+  return event.text + (has_duration
+                           ? fmt::format("  {:.1f} ms", static_cast<double>(event.sdo->time - event.sdo->begin) / 1000)
+                           : "");
+}
 
 /// Prints events, as text or as JSON.
 class Printer {
@@ -49,17 +67,21 @@ class Printer {
     services_.insert(options.services.begin(), options.services.end());
   }
 
-  void show(const Event& event) {
+  /// \retval false  the event is not wanted
+  bool show(const Event& event) {
     if (first_ == 0) {
       first_ = event.time;
     }
-    if (is_wanted(event)) {
+    const bool wanted = is_wanted(event);
+    if (wanted) {
       options_.common.is_json ? print_json(event) : print_text(event);
     }
+    return wanted;
   }
   void begin_at(Micros time) { first_ = first_ == 0 ? time : first_; }
   /// Returns a time since the first frame in seconds.
-  double seconds(Micros time) const { return time < first_ ? 0.0 : static_cast<double>(time - first_) / 1e6; }
+  double seconds(Micros time) const { return static_cast<double>(since_first(time)) / 1e6; }
+  Micros since_first(Micros time) const { return time < first_ ? 0 : time - first_; }
 
  private:
   bool is_wanted(const Event& event) const {
@@ -78,10 +100,7 @@ class Printer {
 
   void print_text(const Event& event) const {
     const std::string node = event.node == 0 ? "-" : std::to_string(event.node);
-    std::string line = fmt::format("{:9.3f} {:>3}  {}", seconds(event.time), node, event.text);
-    if (event.sdo != nullptr && event.sdo->time > event.sdo->begin) {
-      line += fmt::format("  {:.1f} ms", static_cast<double>(event.sdo->time - event.sdo->begin) / 1000);
-    }
+    const std::string line = fmt::format("{:9.3f} {:>3}  {}", seconds(event.time), node, text_of(event));
     if (has_colour_ && event.is_fault) {
       print_red(line);
     } else {
@@ -167,6 +186,38 @@ class Recorder {
   std::uint64_t lost_ = 0;
 };
 
+/// Returns why a page cannot be written; empty: it can be.
+std::string fault_of_page(const std::string& path) {
+  const std::filesystem::path file(path);
+  std::error_code unused;
+  if (path == "-" || std::filesystem::is_directory(file, unused)) {
+    return "--html needs the name of a file";
+  }
+  // A new file replaces an old one when it is complete.
+  const std::string directory = file.has_parent_path() ? file.parent_path().string() : ".";
+  const bool is_writable = access(directory.c_str(), W_OK | X_OK) == 0 &&
+                           (access(path.c_str(), W_OK) == 0 || !std::filesystem::exists(file, unused));
+  return is_writable ? "" : fmt::format("{} cannot be written: {}", path, std::strerror(errno));
+}
+
+/// Writes a page, and says what it leaves out.
+int write_page(const std::string& path, const describe::Picture& picture, const describe::PictureHead& head,
+               const std::vector<describe::Cause>& causes) {
+  std::string why;
+  if (codict::write_file(path, picture.page(head, causes), why) == codict::Written::no) {
+    print_message(why);
+    return usage;
+  }
+  for (const auto& [number, words, most] : {std::tuple{picture.omitted_lines(), "lines", picture.lines()},
+                                            std::tuple{picture.omitted_values(), "values", picture.values()}}) {
+    if (number != 0) {
+      print_note(fmt::format("{} leaves out {} {} behind the first {}; -n, --service and --object show fewer", path,
+                             number, words, most));
+    }
+  }
+  return ok;
+}
+
 std::string identifier_text(std::uint32_t identifier) {
   const std::uint32_t number = identifier & CO_IF_FRM_ID;
   return fmt::format((identifier & CO_IF_FRM_EXT) != 0 ? "{:08X}h" : "{:03X}h", number) +
@@ -180,7 +231,7 @@ class Mon {
         described_(network),
         printer_(options),
         monitor_(
-            network, [this](const Event& event) { printer_.show(event); },
+            network, [this](const Event& event) { show(event); },
             [this](std::uint8_t node, const describe::Identity& identity) {
               return described_.describe(node, identity);
             }) {}
@@ -205,10 +256,27 @@ class Mon {
   Recorder& recorder() { return recorder_; }
 
  private:
+  void show(const Event& event) {
+    if (!printer_.show(event) || options_.page.empty()) {
+      return;
+    }
+    const Micros time = printer_.since_first(event.time);
+    picture_.add_line(time, event, text_of(event));
+    if (event.service == Service::pdo) {
+      if (const std::optional<describe::PdoContent> content = monitor_.values_of(frame_)) {
+        picture_.add_values(time, *content);
+      }
+    }
+  }
+
   void receive(host_bus::Bus& bus) {
     while (const std::optional<Entry> entry = bus.receive()) {
       printer_.begin_at(entry->time);
       recorder_.write(*entry, bus.lost());
+      if (!options_.page.empty()) {
+        picture_.count(printer_.since_first(entry->time), entry->frame);
+      }
+      frame_ = entry->frame;
       monitor_.process(*entry);
       if (Interruption::happened()) {
         return;
@@ -229,6 +297,10 @@ class Mon {
     const describe::Statistics& numbers = monitor_.statistics();
     const std::uint32_t rate = options_.common.rate.empty() ? bus.bit_rate() : bit_rate_of(options_.common.rate);
     options_.common.is_json ? print_json_numbers(numbers, rate, bus) : print_numbers(numbers, rate, bus);
+    const int page = options_.page.empty() ? ok : finish_page(numbers, rate, bus);
+    if (page != ok) {
+      return page;
+    }
     if (!recorder_.close()) {
       print_message("the log is not complete: the file cannot be written");
       return usage;
@@ -238,6 +310,23 @@ class Mon {
       return usage;
     }
     return bus.log() != nullptr ? ok : numbers.frames + numbers.errors == 0 ? no_answer : ok;
+  }
+
+  int finish_page(const describe::Statistics& numbers, std::uint32_t rate, const host_bus::Bus& bus) const {
+    const char* const variable = std::getenv("LEXICAN_BUS");
+    describe::PictureHead head;
+    head.source = options_.log == "-"            ? "standard input"
+                  : !options_.log.empty()        ? std::filesystem::path(options_.log).filename().string()
+                  : !options_.common.bus.empty() ? options_.common.bus
+                  : variable != nullptr          ? variable
+                                                 : "";
+    head.begin = numbers.first;
+    head.duration = numbers.last - numbers.first;
+    head.frames = numbers.frames;
+    head.errors = numbers.errors;
+    head.lost = bus.lost();
+    head.bit_rate = rate;
+    return write_page(options_.page, picture_, head, {});
   }
 
   void print_numbers(const describe::Statistics& numbers, std::uint32_t rate, const host_bus::Bus& bus) const {
@@ -295,7 +384,64 @@ class Mon {
   describe::Monitor monitor_;
   Recorder recorder_;
   LostBus lost_;
+  describe::Picture picture_;
+  CO_IF_FRM frame_{};  ///< which the monitor processes
 };
+
+/// Draws the curve of a recorder, whose CSV is in place of a log.
+int draw_curve(const MonOptions& options, std::istream& input) {
+  const std::string name = options.log == "-" ? "standard input" : options.log;
+  if (options.page.empty()) {
+    print_message(name + " begins like the CSV of a recorder, which --html FILE draws");
+    return usage;
+  }
+  if (!options.record.empty()) {
+    print_message(name + " is the CSV of a recorder, which has no frames for --log");
+    return usage;
+  }
+  describe::RecorderCurve curve;
+  std::string why;
+  if (!describe::read_recorder_csv(input, curve, why)) {
+    print_message(name + ':' + why);
+    return usage;
+  }
+  describe::PictureHead head;
+  head.source = curve.name;
+  head.is_recorder = true;
+  describe::PictureSeries series;
+  series.name = curve.name;
+  series.about = curve.object;
+  series.colour = curve.colour;
+  for (const describe::RecorderPoint& point : curve.points) {
+    series.times.push_back(point.time * 1000);
+    series.values.push_back(static_cast<double>(point.value));
+  }
+  head.duration = series.times.back() - series.times.front();
+  describe::Picture picture;
+  picture.add_series(std::move(series));
+  if (curve.has_trigger) {
+    picture.add_mark(curve.trigger * 1000, "trigger");
+  }
+  return write_page(options.page, picture, head, {});
+}
+
+/// Draws the log if it is the CSV of a recorder.
+/// \retval nothing  it is none
+std::optional<int> draw_if_curve(const MonOptions& options) {
+  std::error_code unused;
+  if (options.log != "-" && !std::filesystem::is_regular_file(options.log, unused)) {
+    return std::nullopt;  // a pipe can be read only once
+  }
+  std::ifstream file;
+  if (options.log != "-") {
+    file.open(options.log, std::ios::binary);
+  }
+  std::istream& input = options.log == "-" ? std::cin : file;
+  const int first = input ? input.peek() : std::char_traits<char>::eof();
+  const bool is_curve =
+      first != std::char_traits<char>::eof() && describe::begins_recorder_csv(static_cast<char>(first));
+  return is_curve ? std::optional(draw_curve(options, input)) : std::nullopt;
+}
 
 int run_mon(MonOptions& options) {
   std::error_code unused;
@@ -306,6 +452,18 @@ int run_mon(MonOptions& options) {
   if (!options.log.empty() && !options.common.bus.empty()) {
     print_message("give a log, or -i, and not both");
     return usage;
+  }
+  if (!options.page.empty()) {
+    const std::string fault = std::filesystem::equivalent(options.log, options.page, unused)
+                                  ? options.page + " is read and cannot be the page, too"
+                                  : fault_of_page(options.page);
+    if (!fault.empty()) {
+      print_message(fault);
+      return usage;
+    }
+  }
+  if (const std::optional<int> status = options.log.empty() ? std::nullopt : draw_if_curve(options)) {
+    return *status;
   }
   if (!options.log.empty()) {
     options.common.bus = "replay:" + options.log;
@@ -348,6 +506,8 @@ Verb add_mon(CommandLine& line) {
   arguments.add_option("--object", options->objects, "Only lines with this index or name, in capitals or not")
       .single_values();
   arguments.add_option("--log", options->record, "Record all frames: FILE.pcapng, else in the format of candump");
+  arguments.add_option("--html", options->page,
+                       "Also write a page with time axis, curves and lines, also of a recorder's CSV");
   arguments.add_flag("--ack", options->common.acknowledges,
                      "Acknowledge frames, for a device that is alone on the bus");
   arguments.add_flag("--all", options->shows_all, "Also heartbeats without a change, and each SYNC");
@@ -356,6 +516,7 @@ Verb add_mon(CommandLine& line) {
       "  lexican mon -i can0 --eds 5=drive.eds\n"
       "  lexican mon -i can0 --service sdo,emcy --node 5\n"
       "  lexican mon -i can0 --log fault.pcapng\n"
+      "  lexican mon fault.log --html fault.html\n"
       "  lexican mon fault.log --eds descriptions");
   return {arguments, [options] { return program::finish(options->common, run_mon(*options)); }};
 }
