@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_recorder.h
 /// Recorder (USE_RECORDER): records the values of an object of the dictionary over time, like an oscilloscope, in
-/// memory of the application, and returns them as CSV or as numbers; the host program lexican-plot draws the CSV. It is
-/// specific to this stack; its two records follow the trace objects of CANopenNode. A node can have any number of
-/// recorders.
+/// memory of the application, and returns them as CSV or as numbers; lexican mon --html draws the CSV. It is specific
+/// to this stack; its two records follow the trace objects of CANopenNode. A node can have any number of recorders.
 ///
 /// Configuration record, CO_TREC_CONFIG, usually 2301h…:
 /// | sub | type | content |
@@ -91,7 +90,7 @@ struct CO_NODE_T;
 enum {
   CO_RECORDER_CSV = 0,     ///< text, a line for each point
   CO_RECORDER_BINARY = 1,  ///< 8 bytes for each point
-  /// Gone: refused with 0609 0030h (CO_ERR_OBJ_RANGE). Read the plot as CSV and draw it on the host: tools/plot.
+  /// Gone: refused with 0609 0030h (CO_ERR_OBJ_RANGE). Read the plot as CSV and draw it: lexican mon --html.
   CO_RECORDER_SVG = 2,
   CO_RECORDER_UNSIGNED = 0x10,  ///< added to one of these: the object is unsigned
 };

@@ -24,8 +24,8 @@ constexpr std::uint32_t in_progress = UINT32_MAX;
 
 constexpr const char* help =
     "Records the speed of a simulated drive around a step of its setpoint, and writes the points as CSV, which\n"
-    "lexican-plot draws. A master configures the recorder of the drive and reads its plot by SDO, on a bus inside the\n"
-    "program with simulated time. The entries of the recorder are in demo/recorder/device.cpp.\n"
+    "lexican mon --html draws. A master configures the recorder of the drive and reads its plot by SDO, on a bus\n"
+    "inside the program with simulated time. The entries of the recorder are in demo/recorder/device.cpp.\n"
     "Usage: lexican-demo-recorder [OPTIONS]\n"
     "\n"
     "Options:\n"

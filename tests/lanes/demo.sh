@@ -7,7 +7,7 @@ lane() {
   export CFLAGS=-Werror CXXFLAGS=-Werror
   now_in "$build/demo/build.log"
   run_pages "$root"
-  rm -f "$root"/recorder.{csv,svg}
+  rm -f "$root"/recorder.{csv,html}
   check "demo/run --virtual" shows "steps in .* all as expected" --virtual
   check "docs/pictures shows this output" same_screen
   check "demo/run thermometer" shows "TPDO1 temperature in 0.1 degrees Celsius = 1010" thermometer
@@ -28,9 +28,9 @@ same_screen() {
 }
 
 drawn() {
-  rm -f "$results"/recorder.{csv,svg}
+  rm -f "$results"/recorder.{csv,html}
   demo recorder --output "$results/recorder.csv" &&
-    python3 "$root/tests/programs/demo/picture.py" "$results/recorder.svg" "$results/recorder.png"
+    python3 "$root/tests/programs/demo/picture.py" "$results/recorder.html" "$results/recorder.png"
 }
 
 # Waits minutes for a line of the node, for a busy machine, but not for a node that has ended: await REGEX
