@@ -90,6 +90,32 @@ Texts follow(const std::string& frames) {
   return bus.ended;
 }
 
+TEST_CASE("SDO transfer: toggle bits that do not alternate") {
+  Bus bus;
+  bus.frames("C 40 08 10 00\nS 41 08 10 00 0E\nC 60\nS 00 11 22\nC 70\nS 11 33");
+  bus.frames("C 40 08 10 00\nS 41 08 10 00 0E\nC 60\nS 10 11 22\nC 60\nS 01 33");  // of the server, of the client
+  bus.frames("C 20 08 10 00\nS 60 08 10 00\nC 10 11\nS 20\nC 01 22\nS 20");        // begins with 1, and a wrong answer
+  REQUIRE(bus.transfers.size() == 3);
+  CHECK(bus.transfers[0].wrong_toggles == 0);
+  CHECK(bus.transfers[1].wrong_toggles == 2);
+  CHECK(bus.transfers[2].wrong_toggles == 2);
+}
+
+TEST_CASE("SDO transfer: segments of a block that were not confirmed, and a transfer that another one ends") {
+  Bus bus;
+  bus.frames("C C0 50 1F 01\nS A0 50 1F 01 04");
+  bus.segments("C", 1, 4, false);
+  bus.frames("S A2 02 04");  // 3 and 4 are lost
+  bus.segments("C", 1, 2, true);
+  bus.frames("S A2 02 04\nC D9\nS A1");
+  bus.frames("C 40 08 10 00\nS 41 08 10 00 0E\nC 60\nC 40 00 10 00");
+  REQUIRE(bus.transfers.size() == 2);
+  CHECK(bus.transfers[0].lost_segments == 2);
+  CHECK(!bus.transfers[0].is_displaced);
+  CHECK(bus.transfers[1].is_displaced);
+  CHECK(bus.transfers[1].lost_segments == 0);
+}
+
 }  // namespace
 
 TEST_CASE("SDO transfer: expedited, with each size") {

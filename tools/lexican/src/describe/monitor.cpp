@@ -11,7 +11,7 @@
 namespace lexican::describe {
 namespace {
 
-constexpr std::uint32_t not_valid = 0x80000000;  // bit of a COB-ID
+constexpr std::uint32_t not_valid = KnownPdo::not_valid;
 constexpr std::size_t most_pdos = 16384;
 constexpr std::uint32_t extended = 0x20000000;  // bit of a COB-ID
 constexpr std::uint16_t known_state = 0x100;
@@ -56,6 +56,20 @@ std::uint32_t value_of(const codict::Entry* entry, std::uint8_t node, std::uint3
   }
   const codict::Value& value = codict::value_in_force(*entry);
   return value.is_integer() ? static_cast<std::uint32_t>(value.integer_for(node).bits()) : otherwise;
+}
+
+constexpr std::uint8_t type_sub_index = 2;
+constexpr std::uint8_t inhibit_sub_index = 3;
+constexpr std::uint8_t event_sub_index = 5;
+
+/// Sets a communication parameter other than the COB-ID. [301:7.5.2.35, 7.5.2.37]
+void set_parameter(KnownPdo& pdo, std::uint8_t sub_index, std::uint32_t value) {
+  switch (sub_index) {
+    case type_sub_index: pdo.type = static_cast<std::uint8_t>(value); break;
+    case inhibit_sub_index: pdo.inhibit_time = pdo.is_transmit ? (value & 0xFFFFU) * 100U : 0U; break;
+    case event_sub_index: pdo.event_time = (value & 0xFFFFU) * 1000U; break;
+    default: break;
+  }
 }
 
 Service service_of(std::uint32_t identifier) {
@@ -161,6 +175,18 @@ std::string wrong_length(Service service, const CO_IF_FRM& frame) {
 
 }  // namespace
 
+bool KnownPdo::is_mapping_known(unsigned& bits) const {
+  bits = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const unsigned length = n < entries.size() ? entries[n] & 0xFFU : 0U;
+    bits += length;
+    if (length == 0) {
+      return false;
+    }
+  }
+  return count > 0;
+}
+
 double Statistics::load(std::uint32_t bit_rate) const {
   const Micros duration = last - first;
   return bit_rate == 0 || duration == 0 ? 0.0
@@ -201,6 +227,10 @@ void Monitor::describe_pdos(std::uint8_t node, const std::vector<codict::Pdo>& a
     }
     pdo.count = static_cast<std::uint8_t>(pdo.entries.size());
     set_cob_id(at, pdo, value_of(described.parameter(1), node, not_valid));
+    for (const std::uint8_t sub_index : {type_sub_index, inhibit_sub_index, event_sub_index}) {
+      set_parameter(pdo, sub_index,
+                    value_of(described.parameter(sub_index), node, sub_index == type_sub_index ? 255 : 0));
+    }
   }
 }
 
@@ -227,6 +257,21 @@ const Monitor::Pdo* Monitor::pdo_of(const CO_IF_FRM& frame, std::uint8_t node) c
     }
   }
   return nullptr;
+}
+
+void Monitor::for_each_pdo(const CO_IF_FRM& frame, const std::function<void(const KnownPdo&)>& call) const {
+  const std::uint32_t cob_id =
+      (frame.Identifier & CO_IF_FRM_ID) | ((frame.Identifier & CO_IF_FRM_EXT) != 0 ? extended : 0U);
+  auto found = by_cob_id_.lower_bound({cob_id, 0});
+  for (; found != by_cob_id_.end() && found->first == cob_id; ++found) {
+    call(pdos_.at(found->second));
+  }
+}
+
+void Monitor::for_each_pdo(const std::function<void(const KnownPdo&)>& call) const {
+  for (const auto& known : pdos_) {
+    call(known.second);
+  }
 }
 
 void Monitor::process(const host_bus::Entry& received) {
@@ -422,7 +467,8 @@ bool Monitor::is_scanned(std::uint8_t node, const SdoTransfer& transfer) {
 
 void Monitor::finish() {
   for (std::uint8_t node = 1; node < 128; ++node) {
-    if (const std::optional<SdoTransfer> transfer = servers_[node].close()) {
+    if (std::optional<SdoTransfer> transfer = servers_[node].close()) {
+      transfer->is_cut = true;
       report(node, *transfer, statistics_.last);
     }
   }
@@ -527,8 +573,11 @@ void Monitor::learn(std::uint8_t node, const SdoTransfer& transfer) {
   pdo.is_observed = true;
   const auto value =
       static_cast<std::uint32_t>(number_in(transfer.data.data(), 0, static_cast<unsigned>(8 * transfer.data.size())));
+  pdo.is_configured = pdo.is_configured || transfer.is_download;
   if (!is_mapping && transfer.sub_index == 1) {
     set_cob_id(at, pdo, value);
+  } else if (!is_mapping) {
+    set_parameter(pdo, transfer.sub_index, value);
   } else if (is_mapping && transfer.sub_index == 0) {
     pdo.count = static_cast<std::uint8_t>(value <= most_mapped ? value : 0U);
   } else if (is_mapping && transfer.sub_index <= most_mapped) {

@@ -55,6 +55,27 @@ struct PdoContent {
   std::vector<PdoValue> values;
 };
 
+/// A PDO by its parameters: those that were seen on the bus, else those of the description.
+struct KnownPdo {
+  static constexpr std::uint32_t not_valid = 0x80000000;
+
+  /// Returns true if all mapped objects are known; \a bits is their length.
+  bool is_mapping_known(unsigned& bits) const;
+  bool is_synchronous() const { return type <= 240; }
+
+  std::uint8_t node = 0;
+  bool is_transmit = false;
+  std::uint16_t number = 0;
+  std::uint32_t cob_id = not_valid;    ///< with bit 29 for 29-bit identifiers
+  std::uint8_t type = 255;             ///< transmission type
+  std::uint32_t inhibit_time = 0;      ///< µs
+  std::uint32_t event_time = 0;        ///< µs
+  std::vector<std::uint32_t> entries;  ///< of the mapping parameter, sub-indices 1 …
+  std::uint8_t count = 0;              ///< sub-index 0
+  bool is_observed = false;            ///< a parameter was seen on the bus
+  bool is_configured = false;          ///< a parameter was written
+};
+
 /// Numbers of the frames so far.
 struct Statistics {
   static constexpr std::size_t most_identifiers = 4096;  ///< frames with further ones are counted in `others`
@@ -94,17 +115,11 @@ class Monitor {
   /// Returns the values of a frame. \a node: whose PDO it has to be; 0: the TPDO with this COB-ID, else the first RPDO.
   /// \retval nothing  no mapping of such a PDO is known, or the frame is a remote one
   std::optional<PdoContent> values_of(const CO_IF_FRM& frame, std::uint8_t node = 0) const;
+  /// Calls a function for each PDO whose COB-ID is the identifier of \a frame, TPDOs first.
+  void for_each_pdo(const CO_IF_FRM& frame, const std::function<void(const KnownPdo&)>& call) const;
+  void for_each_pdo(const std::function<void(const KnownPdo&)>& call) const;
 
  private:
-  struct Pdo {
-    std::uint8_t node = 0;
-    bool is_transmit = false;
-    std::uint16_t number = 0;
-    std::uint32_t cob_id = 0x80000000;
-    std::vector<std::uint32_t> entries;  ///< of the mapping parameter, sub-indices 1 …
-    std::uint8_t count = 0;              ///< sub-index 0
-    bool is_observed = false;            ///< a parameter was seen on the bus
-  };
   /// Entries of the identity object of a node, as they were read.
   struct Seen {
     std::array<std::optional<std::uint32_t>, 3> parts{};  ///< vendor-ID, product code, revision number
@@ -127,6 +142,7 @@ class Monitor {
     unsigned bits = 0;  ///< of the objects
   };
 
+  using Pdo = KnownPdo;
   using PdoKey = std::uint32_t;  ///< of TPDOs lower than of RPDOs
 
   /// Last messages of error control of a node.

@@ -41,6 +41,7 @@ std::optional<SdoTransfer> SdoFollower::follow(bool is_request, const std::uint8
   const bool is_initiate = is_request && (kind == 1 || kind == 2 || (kind == 5 && (data[0] & 3U) == 0) ||
                                           (kind == 6 && (data[0] & 1U) == 0));
   if (is_initiate) {
+    transfer_.is_displaced = is_active();
     ended = close();
     begin(data, kind == 1 || kind == 6, time);
   }
@@ -89,6 +90,7 @@ std::optional<SdoTransfer> SdoFollower::request(const std::uint8_t* data) {
   switch (command(data)) {
     case 0:
       if (follow_if(is_download && !is_expedited_)) {
+        check_toggle(true, data);
         append(data + 1, segment_bytes - ((data[0] >> 1) & 7U));
         is_last_ = (data[0] & 1U) != 0;
       }
@@ -99,7 +101,11 @@ std::optional<SdoTransfer> SdoFollower::request(const std::uint8_t* data) {
         append_expedited(data);
       }
       break;
-    case 3: follow_if(!is_download); break;
+    case 3:
+      if (follow_if(!is_download)) {
+        check_toggle(true, data);
+      }
+      break;
     case 5:  // block upload
       if ((data[0] & 3U) == 3 && follow_if(!is_download)) {
         phase_ = Phase::server_segments;
@@ -129,12 +135,14 @@ std::optional<SdoTransfer> SdoFollower::response(const std::uint8_t* data) {
   switch (command(data)) {
     case 0:
       if (follow_if(!is_download)) {
+        check_toggle(false, data);
         append(data + 1, segment_bytes - ((data[0] >> 1) & 7U));
         return done_if((data[0] & 1U) != 0);
       }
       break;
     case 1:
       if (follow_if(is_download && !is_expedited_)) {
+        check_toggle(false, data);
         return done_if(is_last_);
       }
       break;
@@ -199,6 +207,7 @@ void SdoFollower::begin(const std::uint8_t* data, bool is_download, Micros time)
   transfer_.begin = time;
   is_expedited_ = false;
   is_last_ = false;
+  toggle_ = true;
   is_ended_ = false;
   blksize_ = 0;
   begin_block(0);
@@ -236,6 +245,14 @@ void SdoFollower::begin_block(std::uint8_t blksize) {
   is_block_sent_ = false;
 }
 
+/// The toggle bit of requests alternates, from 0 on; a response has that of its request. [301:7.2.4.3.4, 7.2.4.3.7]
+void SdoFollower::check_toggle(bool is_request, const std::uint8_t* data) {
+  constexpr unsigned toggle_bit = 0x10;
+  const bool toggle = (data[0] & toggle_bit) != 0;
+  transfer_.wrong_toggles += (is_request ? toggle == toggle_ : toggle != toggle_) ? 1U : 0U;
+  toggle_ = is_request ? toggle : toggle_;
+}
+
 /// Stores a segment of a block until it is acknowledged. A receiver ignores those behind a lost one.
 /// \retval false  a sequence number that has been seen, or 0
 bool SdoFollower::segment(const std::uint8_t* data) {
@@ -259,6 +276,7 @@ void SdoFollower::acknowledge(const std::uint8_t* data) {
   const std::uint8_t received = std::min(data[1], blksize_);
   const std::uint8_t recorded = std::min(received, in_block_);
   const bool is_complete = is_last_ && received == highest_;
+  transfer_.lost_segments += highest_ > received ? static_cast<unsigned>(highest_ - received) : 0U;
   append(block_.data(), recorded * segment_bytes);
   transfer_.size += (received - recorded) * segment_bytes;
   is_last_ = is_complete;

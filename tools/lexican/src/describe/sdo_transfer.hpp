@@ -21,6 +21,10 @@ struct SdoTransfer {
   bool is_download = false;
   bool is_aborted_only = false;  ///< only the abort was seen: is_download is not known
   bool is_answered = false;      ///< the server has sent a frame of the transfer
+  bool is_displaced = false;     ///< unanswered: the next transfer began before it had ended
+  bool is_cut = false;           ///< unanswered: the log has ended before
+  unsigned wrong_toggles = 0;    ///< segments whose toggle bit does not alternate
+  unsigned lost_segments = 0;    ///< segments of blocks that the receiver has not confirmed
   End end = End::done;           ///< refused: aborted by the server; cancelled: aborted by the client
   std::uint32_t abort_code = 0;  ///< of refused and cancelled
   Micros begin = 0;
@@ -67,6 +71,7 @@ class SdoFollower {
   bool follow_if(bool is_expected);
   void append(const std::uint8_t* bytes, std::size_t size);
   void append_expedited(const std::uint8_t* data);
+  void check_toggle(bool is_request, const std::uint8_t* data);
   bool segment(const std::uint8_t* data);
   void begin_block(std::uint8_t blksize);
   void acknowledge(const std::uint8_t* data);
@@ -79,6 +84,7 @@ class SdoFollower {
   bool was_followed_ = false;
   bool is_expedited_ = false;        ///< a download
   bool is_last_ = false;             ///< the last segment was seen
+  bool toggle_ = true;               ///< toggle bit of the last request of a segment
   bool is_ended_ = false;            ///< the end of a block transfer was seen
   bool is_block_sent_ = false;       ///< the last frame of the sub-block was seen
   std::uint8_t blksize_ = 0;         ///< segments of a sub-block
