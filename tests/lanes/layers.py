@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The include rules: include < wire < hal < base < dictionary < storage < service < extra < node; drivers include only include/.
 The modules of tools/codict/src: text < model < eds, xdd < check, gen and so on < network < catalogue < cli; none includes one of
-its own level. Those of tools/lexican/src: trace, bus < host < client < describe < simulate < program; the last three include
-codict's.
+its own level. Those of tools/lexican/src: trace, bus < host < client < describe < explain < simulate < program; the
+last four include codict's.
 
 layers.py ROOT         checks a source tree, one case for each module
 layers.py --self-test  checks that a violation of each rule is found in a small tree
@@ -20,7 +20,7 @@ EXTENDS = {"mpdo": "pdo"}
 # Public headers of src/extra.
 OF_EXTRAS = {"co_od.h", "co_od_2020.h", "co_os.h", "co_recorder.h"}
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
-TOOL_LEVELS = [{"trace", "bus"}, {"host"}, {"client"}, {"describe"}, {"simulate"}, {"program"}]
+TOOL_LEVELS = [{"trace", "bus"}, {"host"}, {"client"}, {"describe"}, {"explain"}, {"simulate"}, {"program"}]
 # Headers of the stack that codict includes: they need no configuration.
 CODICT_STACK = {"lexican/detail/objects.h", "lexican/srdo.hpp"}
 # Headers of the standard library that need neither an operating system nor allocation.
@@ -104,7 +104,7 @@ class Tree:
         here = file.relative_to(self.root / "tools/lexican/src").parts[0]
         if system or len(Path(name).parts) == 1 or self.is_public(name):  # of the stack, or of a driver
             return None
-        if here in ("describe", "simulate", "program") and (self.root / "tools/codict/src" / name).is_file():
+        if here in ("describe", "explain", "simulate", "program") and (self.root / "tools/codict/src" / name).is_file():
             return None
         return self.above(TOOL_LEVELS, here, name)
 

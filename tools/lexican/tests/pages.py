@@ -52,12 +52,12 @@ MASKS = [(re.compile(pattern, re.MULTILINE), replacement) for pattern, replaceme
 
 
 def is_log(words):
-    return words[1] == "mon" and words[2:] and not words[2].startswith("-")
+    return words[1] in ("mon", "why") and words[2:] and not words[2].startswith("-")
 
 
 def is_endless(words):
     """Returns whether a command runs until Ctrl-C."""
-    return words[1] in ("mon", "share", "sim", "top") and not is_log(words) and "--help" not in words
+    return words[1] in ("mon", "share", "sim", "top", "why") and not is_log(words) and "--help" not in words
 
 
 def comparable(words, text):
@@ -246,7 +246,8 @@ def copy_files(directory):
     """Copies the files that the pages and the helps name."""
     description = ROOT / "demo/clock/generated/clock.eds"
     shutil.copy(description, directory)
-    shutil.copy(ROOT / "tools/lexican/tests/fixtures/fault.pcapng", directory)
+    for name in ("fault.pcapng", "heartbeat.log", "servo.eds"):
+        shutil.copy(ROOT / "tools/lexican/tests/fixtures" / name, directory)
     (directory / "fault.log").write_text("(0.000000) can0 705#7F\n")
     (directory / "firmware.bin").write_bytes(bytes(100))
     text = re.sub("(Low|High)Limit=.*", "", description.read_text())

@@ -33,6 +33,7 @@ TEST_CASE("lexican: without arguments all verbs are listed") {
         "  scan       Find the devices of a bus: state, profile, identity and name\n"
         "  mon        Show in words what happens on a bus, or in a log\n"
         "  top        Show nodes, values and events of a bus on a live screen\n"
+        "  why        Name the causes of faults on a bus, or in a log\n"
         "  read       Read an object of a device\n"
         "  write      Write an object of a device\n"
         "  pdo        Show, change, watch and send PDOs\n"
@@ -53,7 +54,7 @@ TEST_CASE("lexican: without arguments all verbs are listed") {
 }
 
 TEST_CASE("lexican: the help of each verb has its options and examples") {
-  for (const char* verb : {"scan", "mon", "top", "read", "write", "nmt"}) {
+  for (const char* verb : {"scan", "mon", "top", "why", "read", "write", "nmt"}) {
     CAPTURE(verb);
     const Ran ran = run({verb, "--help"});
     CHECK(ran.status == 0);
@@ -714,7 +715,7 @@ TEST_CASE("lexican: a log, or a path, as the bus of a verb that sends") {
   const std::string log = directory / "a.log";
   write_bytes(log, "(0.000000) can0 705#7F\n");
   check(run({"read", "5", "1008", "-i", "replay:" + log}), 2, "",
-        "lexican: replay:" + log + " is a log, which only lexican mon, pdo watch and top can use\n");
+        "lexican: replay:" + log + " is a log, which only lexican mon, why, pdo watch and top can use\n");
   const Ran ran = run({"scan", "-i", "/dev/pts/0"});
   CHECK(has(ran.err, "lexican: '/dev/pts/0' is no bus, which is one of:\n"));
   CHECK(has(ran.err, "slcan:/dev/ttyACM0@500k"));

@@ -23,6 +23,7 @@ class VirtualNetwork : public Host {
   static constexpr std::uint32_t bit_rate = 500'000;
 
   VirtualNetwork() {
+    clock_.set_frequency(Node::ticks_per_second);
     bus_.set_time([this] { return clock_.time(); });
     bus_.pace(bit_rate);
   }

@@ -171,7 +171,7 @@ std::unique_ptr<host_bus::Bus> open_bus(const Common& common, bool listens_only,
     print_note(bus->note());
   }
   if (bus->log() != nullptr && !listens_only) {
-    print_message(name + " is a log, which only lexican mon, pdo watch and top can use");
+    print_message(name + " is a log, which only lexican mon, why, pdo watch and top can use");
     status = usage;
     return nullptr;
   }

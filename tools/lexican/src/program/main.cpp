@@ -70,10 +70,10 @@ std::vector<std::string> without_help(int number, char** arguments) {
 
 int run_program(int number, char** arguments) {
   CommandLine line("lexican", about, "lexican " LEXICAN_VERSION, footer);
-  const std::vector<Verb> verbs = {add_scan(line),       add_mon(line), add_top(line),  add_read(line),
-                                   add_write(line),      add_pdo(line), add_dump(line), add_apply(line),
-                                   add_nmt(line),        add_lss(line), add_sim(line),  add_share(line),
-                                   add_completion(line), add_man(line), add_help(line)};
+  const std::vector<Verb> verbs = {add_scan(line),  add_mon(line),        add_top(line), add_why(line),
+                                   add_read(line),  add_write(line),      add_pdo(line), add_dump(line),
+                                   add_apply(line), add_nmt(line),        add_lss(line), add_sim(line),
+                                   add_share(line), add_completion(line), add_man(line), add_help(line)};
   std::vector<std::string> words = without_help(number, arguments);
   if (words.size() < 2 || (words.size() == 2 && words[1] == "help")) {
     return show_verbs(line);

@@ -24,6 +24,7 @@
 #include "describe/monitor.hpp"
 #include "describe/picture.hpp"
 #include "describe/recorder_csv.hpp"
+#include "explain/explainer.hpp"
 #include "program/identity.hpp"
 #include "program/verb.hpp"
 #include "text/file.hpp"
@@ -228,6 +229,7 @@ class Mon {
  public:
   Mon(const MonOptions& options, describe::Network& network)
       : options_(options),
+        network_(network),
         described_(network),
         printer_(options),
         monitor_(
@@ -238,6 +240,11 @@ class Mon {
 
   int run(host_bus::Bus& bus) {
     const Interruption interruption;
+    if (!options_.page.empty()) {
+      explainer_.emplace(network_, rate_of(bus), [this](std::uint8_t node, const describe::Identity&) {
+        return network_.of(node).device() != nullptr;  // described_ has described it
+      });
+    }
     while (!Interruption::happened()) {
       receive(bus);
       if (bus.wanted().fd < 0 && bus.log() != nullptr) {
@@ -278,6 +285,9 @@ class Mon {
       }
       frame_ = entry->frame;
       monitor_.process(*entry);
+      if (explainer_) {
+        explainer_->process(*entry);
+      }
       if (Interruption::happened()) {
         return;
       }
@@ -293,9 +303,13 @@ class Mon {
     ppoll(&wanted, 1, &timeout, &interruption.while_waiting());
   }
 
+  std::uint32_t rate_of(const host_bus::Bus& bus) const {
+    return options_.common.rate.empty() ? bus.bit_rate() : bit_rate_of(options_.common.rate);
+  }
+
   int finish(const host_bus::Bus& bus) {
     const describe::Statistics& numbers = monitor_.statistics();
-    const std::uint32_t rate = options_.common.rate.empty() ? bus.bit_rate() : bit_rate_of(options_.common.rate);
+    const std::uint32_t rate = rate_of(bus);
     options_.common.is_json ? print_json_numbers(numbers, rate, bus) : print_numbers(numbers, rate, bus);
     const int page = options_.page.empty() ? ok : finish_page(numbers, rate, bus);
     if (page != ok) {
@@ -312,7 +326,28 @@ class Mon {
     return bus.log() != nullptr ? ok : numbers.frames + numbers.errors == 0 ? no_answer : ok;
   }
 
-  int finish_page(const describe::Statistics& numbers, std::uint32_t rate, const host_bus::Bus& bus) const {
+  std::vector<describe::Cause> causes() const {
+    std::vector<describe::Cause> causes;
+    const auto seconds = [&](Micros time) { return static_cast<double>(printer_.since_first(time)) / 1e6; };
+    for (const explain::Finding& finding : explainer_->findings()) {
+      const explain::Evidence& evidence = finding.evidence;
+      describe::Cause cause{finding.title,
+                            finding.text,
+                            finding.check,
+                            finding.fix,
+                            finding.node,
+                            seconds(evidence.since()),
+                            seconds(evidence.until()),
+                            {}};
+      for (const Micros time : evidence.times()) {
+        cause.times.push_back(seconds(time));
+      }
+      causes.push_back(std::move(cause));
+    }
+    return causes;
+  }
+
+  int finish_page(const describe::Statistics& numbers, std::uint32_t rate, const host_bus::Bus& bus) {
     const char* const variable = std::getenv("LEXICAN_BUS");
     describe::PictureHead head;
     head.source = options_.log == "-"            ? "standard input"
@@ -326,7 +361,8 @@ class Mon {
     head.errors = numbers.errors;
     head.lost = bus.lost();
     head.bit_rate = rate;
-    return write_page(options_.page, picture_, head, {});
+    explainer_->finish();
+    return write_page(options_.page, picture_, head, causes());
   }
 
   void print_numbers(const describe::Statistics& numbers, std::uint32_t rate, const host_bus::Bus& bus) const {
@@ -379,9 +415,11 @@ class Mon {
   }
 
   const MonOptions& options_;
+  const describe::Network& network_;
   LibraryFiles described_;
   Printer printer_;
   describe::Monitor monitor_;
+  std::optional<explain::Explainer> explainer_;  ///< for the page
   Recorder recorder_;
   LostBus lost_;
   describe::Picture picture_;

@@ -50,6 +50,7 @@ Verb add_scan(CommandLine& line);
 Verb add_share(CommandLine& line);
 Verb add_sim(CommandLine& line);
 Verb add_top(CommandLine& line);
+Verb add_why(CommandLine& line);
 Verb add_write(CommandLine& line);
 
 /// Options that several verbs have. The texts are checked when they are used.
