@@ -83,7 +83,7 @@ class EmcyCheck : public Check {
 // LSS command specifiers. [305]
 constexpr std::uint8_t configure_node_id = 0x11;
 constexpr std::uint8_t identify_unconfigured = 0x4C;
-constexpr std::uint8_t identified = 0x4F;  // a slave, also in a fastscan
+constexpr std::uint8_t identified_slave = 0x4F;  // a slave, also in a fastscan
 constexpr std::uint8_t identified_unconfigured = 0x50;
 constexpr std::uint8_t fastscan = 0x51;
 constexpr std::uint8_t inquire_node_id = 0x5E;
@@ -105,7 +105,7 @@ class LssCheck : public Check {
       requested_id_ = command == configure_node_id ? entry.frame.Data[1] : requested_id_;
       return;
     }
-    const bool is_fastscan = command == identified && request_ == fastscan;
+    const bool is_fastscan = command == identified_slave && request_ == fastscan;
     const bool has_none = command == inquire_node_id && entry.frame.Data[1] == no_node_id;
     if (is_fastscan || command == identified_unconfigured || has_none) {
       waiting_.add(entry, is_fastscan ? "answer to the LSS fastscan" : "LSS: a device without node-ID");
