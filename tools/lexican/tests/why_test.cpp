@@ -2,6 +2,7 @@
 // The causes that `lexican why` names, by logs of simulated devices (scenarios/*.txt).
 #include <doctest/doctest.h>
 
+#include <random>
 #include <set>
 
 #include "explain/explainer.hpp"
@@ -50,6 +51,44 @@ TEST_CASE("why: the cause of a fault, and no other") { check_sections("faults.tx
 TEST_CASE("why: faults that an author made who knew only the names of the causes") { check_sections("seeded.txt"); }
 TEST_CASE("why: what is near a fault, and none") { check_sections("near.txt"); }
 TEST_CASE("why: good buses have no cause") { check_sections("good.txt"); }
+
+/// Any frames, most of them with the identifiers of services of a few nodes, and times that jump.
+TEST_CASE("why: a bus of random frames") {
+  std::mt19937 random(7);
+  const auto any = [&] { return static_cast<std::uint32_t>(random()); };
+  const auto below = [&](unsigned limit) { return any() % limit; };
+  describe::Network network;
+  network.describe(5, description_of(LEXICAN_TOOL_DIR "/tests/fixtures/servo.eds"));
+  Explainer explainer(network, 0);
+  host_bus::Entry entry;
+  entry.time = Scenario::epoch;
+  for (int n = 0; n < 60000; ++n) {
+    constexpr unsigned functions[] = {0, 1, 3, 4, 5, 6, 11, 12, 12, 14, 15};
+    const unsigned node = below(4) == 0 ? below(128) : 4 + below(4);
+    const bool is_any = below(10) == 0;
+    entry.frame.Identifier = is_any           ? any()
+                             : below(20) == 0 ? (below(2) != 0 ? 0x7E4 : 0x7E5)
+                                              : functions[below(std::size(functions))] << 7 | node;
+    entry.frame.DLC = static_cast<std::uint8_t>(below(4) == 0 ? below(16) : 8);
+    for (std::uint8_t& byte : entry.frame.Data) {
+      byte = static_cast<std::uint8_t>(below(3) == 0 ? any() : below(2) << 4);
+    }
+    entry.time = below(1000) == 0 ? entry.time - below(5'000'000) : entry.time + below(3000);
+    explainer.process(entry);
+  }
+  explainer.finish();
+  const std::vector<explain::Finding> findings = explainer.findings();
+  CHECK(!findings.empty());
+  CHECK(findings.size() <= explain::Findings::most);
+  for (const explain::Finding& finding : findings) {
+    CHECK(!finding.title.empty());
+    CHECK(!finding.text.empty());
+    CHECK(!finding.check.empty());
+    CHECK(finding.evidence.frames().size() <= explain::Evidence::most_frames);
+    CHECK(finding.evidence.times().size() <= explain::Evidence::most_times);
+    CHECK(finding.evidence.since() <= finding.evidence.until());
+  }
+}
 
 const std::string servo = "5=" LEXICAN_TOOL_DIR "/tests/fixtures/servo.eds";
 

@@ -33,7 +33,7 @@ class EmcyCheck : public Check {
     }
     Node& own = nodes_[node];
     own.times.push_back(entry.time);
-    while (entry.time - own.times.front() > 60 * one_second) {
+    while (entry.time - own.times.front() > 60 * one_second || own.times.size() > 3 * many) {
       own.times.pop_front();
     }
     const std::size_t count = own.times.size();

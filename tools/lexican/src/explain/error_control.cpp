@@ -239,7 +239,8 @@ class ErrorControlCheck : public Check {
     }
     producer.boots.add(entry, "boot-up without a command");
     producer.boot_ups.push_back(entry.time);
-    while (entry.time - producer.boot_ups.front() > loops[1].within) {
+    constexpr std::size_t most_boot_ups = 100;
+    while (entry.time - producer.boot_ups.front() > loops[1].within || producer.boot_ups.size() > most_boot_ups) {
       producer.boot_ups.pop_front();
     }
     const std::size_t count = producer.boot_ups.size();
