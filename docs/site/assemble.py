@@ -36,8 +36,10 @@ def pages_of(root):
     for name in ("codict", "rules", "network"):
         if (root / f"tools/codict/docs/{name}.md").exists():
             pages[Path(f"tools/codict/docs/{name}.md")] = Path(f"{name}.md")
-    for path in sorted((root / "tools/lexican/docs").glob("*.md")):
-        pages[path.relative_to(root)] = Path(path.name) if path.stem == "lexican" else Path("lexican") / path.name
+    tool = root / "tools/lexican/docs"
+    for path in sorted(tool.rglob("*.md")):
+        place = path.relative_to(tool)
+        pages[path.relative_to(root)] = place if path.stem == "lexican" else Path("lexican") / place
     pages[Path("tests/stack/conformance/RULES.md")] = Path("conformance.md")
     pages[Path("CONTRIBUTING.md")] = Path("contributing.md")
     pages[Path("tests/README.md")] = Path("tests.md")
