@@ -602,6 +602,29 @@ TEST_CASE("lexican sim: a device of a description on a hub, with commands of a s
   CHECK(test::has(ran.err, "lexican: unknown command, or wrong arguments: set\n"));
 }
 
+TEST_CASE("lexican sim: from an unknown adapter to a trace with names") {
+  const std::string servo = LEXICAN_TOOL_DIR "/tests/fixtures/servo.eds";
+  test::Bench bench;
+  const std::string script = bench.directory / "script";
+  test::write_bytes(script, "set 1017 50\n");
+  test::Process sim(bench.line("sim", {servo, "--node", "5", "--script", script}), bench.environment());
+  sim.wait_for("node 5");
+  test::Process share(bench.line("share", {"--name", "adapter", "--port", "0", "--slcan-port", "0", "--pty", "--json"}),
+                      bench.environment());
+  share.wait_for("}\n");
+  const std::string adapter = "slcan:" + nlohmann::json::parse(share.out())["slcan"].get<std::string>();
+  const test::Ran scan = bench.run("scan", {"-i", adapter});
+  CHECK(scan.status == 0);
+  CHECK(test::has(scan.err + scan.out, "rate: "));
+  CHECK(test::has(scan.out, "   5  pre-operational  402 drive "));
+  test::Process mon(bench.line("mon", {"-i", adapter + "@500k", "--eds", servo}), bench.environment());
+  mon.wait_for("heartbeat: pre-operational");
+  CHECK(bench.run("nmt", {"start", "5"}).status == 0);
+  mon.wait_for("heartbeat: operational");
+  CHECK(bench.run("write", {"5", "6040", "6", "--eds", servo}).status == 0);
+  mon.wait_for("TPDO1 Statusword = ");
+}
+
 TEST_CASE("lexican sim: wrong use") {
   test::Bench bench;
   const std::string script = bench.directory / "script";

@@ -165,4 +165,12 @@ TEST_CASE("lexican why: a bus, until Ctrl-C") {
   CHECK(ran.status == 1);
 }
 
+TEST_CASE("why: each cause has a page with its title") {
+  for (const explain::Cause& cause : explain::causes) {
+    const std::string page = bytes_of_file(std::string(LEXICAN_TOOL_DIR "/docs/causes/") + cause.name + ".md");
+    CHECK(page.substr(0, page.find('\n')) == std::string("# ") + cause.title);
+    CHECK(&explain::cause_of(cause.id) == &cause);
+  }
+}
+
 }  // namespace

@@ -110,9 +110,8 @@ class BusCheck : public Check {
     const bool is_unacknowledged = unacknowledged_ * 2 > errors_.count();
     Finding finding{CauseId::bus_errors, 0, 0, {}, {}, {}, {}, errors_};
     finding.title = is_unacknowledged ? "frames are not acknowledged" : "frames are destroyed on the bus";
-    finding.text =
-        fmt::format("{} error frames beside {} frames.", errors_.count(), frames_) +
-        (is_unacknowledged ? " Nobody acknowledges: no other device is there, or all have another bit rate." : "");
+    finding.text = fmt::format("{} error frames beside {} frames.", errors_.count(), frames_) +
+                   (is_unacknowledged ? " No device acknowledges: none is there, or all have another bit rate." : "");
     finding.check = is_unacknowledged ? "power of the devices, and their bit rate: lexican scan without --rate finds it"
                                       : "60 ohm between CAN_H and CAN_L, stubs, ground, bit rate and sample point";
     findings_.put(std::move(finding));

@@ -13,8 +13,8 @@ std::optional<std::uint16_t> plain_identifier(const CO_IF_FRM& frame) {
 }
 
 std::string time_text(Micros time) {
-  return time >= one_second ? fmt::format("{:.3g} s", static_cast<double>(time) / 1e6)
-                            : fmt::format("{:.3g} ms", static_cast<double>(time) / 1e3);
+  return time >= 999'500 ? fmt::format("{:.3g} s", static_cast<double>(time) / 1e6)
+                         : fmt::format("{:.3g} ms", static_cast<double>(time) / 1e3);
 }
 
 void Facts::frame(const Entry& entry) {

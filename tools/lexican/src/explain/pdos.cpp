@@ -45,6 +45,7 @@ constexpr unsigned inhibited_needed = 20;  // frames in a row, and for this time
 constexpr Micros inhibited_time = 3 * one_second;
 constexpr Micros operational_needed = 3 * one_second;
 constexpr std::size_t most_identifiers = 2048;
+constexpr std::uint32_t reported_by_device = 0x2000;  // detail of a finding
 
 class PdoCheck : public Check {
  public:
@@ -260,8 +261,8 @@ class PdoCheck : public Check {
     Finding finding{CauseId::rpdo_missing, pdo.node, detail, {}, {}, {}, {}, evidence};
     finding.title = detail == 0 ? fmt::format("node {} is Operational and never receives an RPDO", pdo.node)
                                 : fmt::format("{} of node {} is never received", name_of(pdo), pdo.node);
-    finding.text = fmt::format("Operational for {}; {} has the COB-ID {:03X}h, which nobody sends.",
-                               time_text(now - facts.state_since), name_of(pdo), pdo.cob_id & CO_IF_FRM_ID);
+    finding.text = fmt::format("Operational for {}; no frame with {:03X}h, the COB-ID of {}, was received.",
+                               time_text(now - facts.state_since), pdo.cob_id & CO_IF_FRM_ID, name_of(pdo));
     std::string others;
     for (const auto& [identifier, unknown] : unknown_) {
       if (identifier >= 0x180 && identifier < 0x580 && others.size() < 30) {
@@ -346,7 +347,7 @@ class PdoCheck : public Check {
       findings_.put(std::move(finding));
     } else if (code == timed_out) {
       own.time_outs.add(entry, "EMCY 8250h RPDO time-out");
-      Finding finding{CauseId::rpdo_missing, node, 1, {}, {}, {}, {}, own.time_outs};
+      Finding finding{CauseId::rpdo_missing, node, reported_by_device, {}, {}, {}, {}, own.time_outs};
       finding.title = fmt::format("node {} does not receive an RPDO in time", node);
       finding.text = "It sends EMCY 8250h: the event timer of an RPDO has elapsed without a frame.";
       finding.check = fmt::format("lexican pdo show {}; lexican read {} 1400:5", node, node);
