@@ -148,6 +148,28 @@ TEST_CASE("simulate: each readable description of the fixtures starts, and its e
   CHECK(entries > 500);
 }
 
+TEST_CASE("simulate: services beyond those of the program are named, and the device runs without them") {
+  const test::Directory directory;
+  const std::string path = directory / "servers.eds";
+  std::string text = bytes_of_file(simulated_eds);
+  text.replace(text.find("SupportedObjects=9"), 18, "SupportedObjects=11\n10=0x1201\n11=0x127F");
+  for (const std::string object : {"1201", "127F"}) {
+    const std::string kind = "DataType=0x0007\nAccessType=ro\nObjectType=7\nDefaultValue=";
+    text += "\n[" + object + "]\nParameterName=Server\nObjectType=9\nSubNumber=3\n[" + object +
+            "sub0]\nParameterName=Number\nDataType=0x0005\nAccessType=ro\nObjectType=7\nDefaultValue=2\n[" + object +
+            "sub1]\nParameterName=Request\n" + kind + "0x6" + object.substr(2) + "\n[" + object +
+            "sub2]\nParameterName=Answer\n" + kind + "0x5" + object.substr(2) + '\n';
+  }
+  test::write_bytes(path, text);
+  SimulatedBus bus(path);
+  REQUIRE(bus.fault == "");
+  REQUIRE(bus.device.dictionary().left_out().size() == 1);
+  CHECK(bus.device.dictionary().left_out()[0].find("SDO servers left out: 1; this program has the first ") == 0);
+  CHECK(bus.read(0x1201, 1) == "00000601h");
+  CHECK(bus.read(0x127F, 1) == "aborted with 0602 0000h object does not exist");
+  CHECK(bus.read(0x2001) == "-40");
+}
+
 TEST_CASE("simulate: commands set values, and let them change") {
   SimulatedDevices bus(simulated_eds, 5, 1);
   bus.run("set 2001 77");

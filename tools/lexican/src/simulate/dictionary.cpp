@@ -9,6 +9,7 @@
 
 #include "co_core.h"
 #include "lexican/detail/objects.h"
+#include "lexican/detail/rules.hpp"
 #include "model/types.hpp"
 
 namespace lexican::simulate {
@@ -348,33 +349,31 @@ Dictionary::Dictionary(const codict::Device& device, const std::string& file) {
   build(plan, file);
 }
 
-/// Names the PDOs, heartbeat consumers and SDO servers that are more than the stack of this program has.
+/// Names the PDOs, SDO servers and the like that the stack of this program does not have.
 void Dictionary::note_excess(const Plan& plan) {
-  struct Range {
+  struct Service {
     std::uint16_t first;
-    std::uint16_t last;
+    std::uint16_t last;  // the same for an array
     unsigned most;
     const char* name;
   };
-  constexpr Range ranges[] = {{0x1200, 0x127F, CO_SSDO_N, "SDO servers"},
-                              {0x1400, 0x15FF, CO_RPDO_N, "RPDOs"},
-                              {0x1800, 0x19FF, CO_TPDO_N, "TPDOs"}};
-  for (const auto& [first, last, most, name] : ranges) {
-    const auto number = static_cast<unsigned>(
-        std::count_if(plan.items.begin(), plan.items.end(), [lowest = first, highest = last](const Item& item) {
-          return item.index >= lowest && item.index <= highest && item.sub_index == 1;
-        }));
-    if (number > most) {
+  constexpr Service services[] = {{0x1016, 0x1016, CO_HBCONS_N, "heartbeat consumers"},
+                                  {0x1028, 0x1028, CO_EMCY_CONS_N, "EMCY consumers"},
+                                  {0x1200, 0x127F, CO_SSDO_N, "SDO servers"},
+                                  {0x1280, 0x12FF, CO_CSDO_N, "SDO clients"},
+                                  {0x1301, 0x1340, CO_SRDO_N, "SRDOs"},
+                                  {0x1400, 0x15FF, CO_RPDO_N, "RPDOs"},
+                                  {0x1800, 0x19FF, CO_TPDO_N, "TPDOs"}};
+  for (const Service& service : services) {
+    const auto excess = std::count_if(plan.items.begin(), plan.items.end(), [&](const Item& item) {
+      const bool is_one = service.first == service.last || item.sub_index == 1;
+      return item.index >= service.first && item.index <= service.last && is_one &&
+             !co::rules::is_configured(item.key());
+    });
+    if (excess != 0) {
       left_out_.push_back(
-          fmt::format("{} {}: this program simulates {}, the others are values only", number, name, most));
+          fmt::format("{} left out: {}; this program has the first {}", service.name, excess, service.most));
     }
-  }
-  unsigned consumers = 0;
-  for (const Item& item : plan.items) {
-    consumers += item.storage == Storage::consumer ? 1U : 0U;
-  }
-  if (consumers > CO_HBCONS_N) {
-    left_out_.push_back(fmt::format("{} heartbeat consumers: this program simulates {}", consumers, CO_HBCONS_N));
   }
 }
 
@@ -384,7 +383,9 @@ void Dictionary::build(const Plan& plan, const std::string& file) {
   memory_ = std::make_unique<Memory>(plan);
   add_storage(plan);
   for (const Item& item : plan.items) {
-    add(item, *memory_, file);
+    if (co::rules::is_configured(item.key())) {
+      add(item, *memory_, file);
+    }
   }
   memory_->keep_defaults();
   const std::uint32_t communication = memory_->communication_bytes();
