@@ -14,36 +14,9 @@
 namespace {
 
 using namespace lexican;
-using simulate::Device;
 
 const std::string clock_eds = LEXICAN_TOOL_DIR "/../../demo/clock/generated/clock.eds";
 const std::string simulated_eds = LEXICAN_TOOL_DIR "/tests/fixtures/device.eds";
-
-/// A simulated device as node 5, and a client.
-struct SimulatedBus {
-  explicit SimulatedBus(const std::string& path, const std::string& storage = {})
-      : device(description_of(path), bytes_of_file(path), {5, 0, storage, network.attach(), network.add_timer()}) {
-    fault = device.start();
-    if (fault.empty()) {
-      network.run([this] { return device.node().process() ? Micros{0} : device.node().due_in(); });
-      client.emplace(network, 5);
-    }
-  }
-
-  /// Returns the value of an object in words, or its abort code.
-  std::string read(std::uint16_t index, std::uint8_t sub_index = 0) {
-    const Transfer transfer = client->sdo().upload(index, sub_index, {65536, 1000, {}});
-    return transfer.done() ? device.description().show(index, sub_index, transfer.data) : transfer.outcome();
-  }
-  std::string write(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) {
-    return client->sdo().download(index, sub_index, bytes).outcome();
-  }
-
-  VirtualNetwork network;
-  Device device;
-  std::string fault;
-  std::optional<DeviceClient> client;
-};
 
 TEST_CASE("simulate: a device has the objects of its description") {
   SimulatedBus bus(simulated_eds);
@@ -110,42 +83,6 @@ TEST_CASE("simulate: the device sets its objects itself, and refuses an object")
   CHECK(bus.read(0x2006).substr(0, 27) == "aborted with 0800 0022h dat");
   CHECK(bus.device.dictionary().refuse(0x2006, 0, 0));
   CHECK(bus.read(0x2006) == "9");
-}
-
-/// Objects that are not simulated: structures of the application.
-bool is_structure(std::uint16_t index) { return index >= 0x1023 && index <= 0x1027; }
-
-TEST_CASE("simulate: each readable description of the fixtures starts, and its entries can be read") {
-  std::size_t devices = 0;
-  std::size_t entries = 0;
-  for (const auto& file : std::filesystem::recursive_directory_iterator(LEXICAN_FIXTURES)) {
-    std::string why;
-    const std::string path = file.path().string();
-    const std::optional<describe::Description> description =
-        file.is_regular_file() ? describe::read_description(path, why) : std::nullopt;
-    if (!description || description->device()->objects.empty()) {
-      continue;
-    }
-    CAPTURE(path);
-    SimulatedBus bus(path);
-    REQUIRE(bus.fault == "");
-    ++devices;
-    const bool is_complete = bus.device.dictionary().left_out().empty();
-    codict::for_each_variable(*description->device(), [&](std::uint16_t index, std::uint8_t sub_index,
-                                                          const codict::Entry& entry) {
-      const bool is_disabled = description->device()->find(index)->node->disabled->value;  // CO_disabled
-      const bool is_type = index < 0x1000;
-      if (!codict::is_readable(entry.access.value) || is_type || is_structure(index) || is_disabled || !is_complete) {
-        return;
-      }
-      const std::string text = bus.read(index, sub_index);
-      const bool is_right = text.find("aborted") != 0 || text == "aborted with 0800 0024h no data available";
-      CHECK_MESSAGE(is_right, describe::key_of(index, sub_index, true) << ' ' << text);
-      ++entries;
-    });
-  }
-  CHECK(devices > 60);
-  CHECK(entries > 500);
 }
 
 TEST_CASE("simulate: services beyond those of the program are named, and the device runs without them") {

@@ -7,6 +7,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <string>
 
 #include "client/sdo_client.hpp"
 #include "simulate/simulation.hpp"
@@ -46,6 +48,32 @@ inline bool find_by_index(const std::string& word, const describe::Description&,
   why = "";
   return true;
 }
+
+/// A simulated device as node 5, and a client.
+struct SimulatedBus {
+  explicit SimulatedBus(const std::string& path, const std::string& storage = {})
+      : device(description_of(path), bytes_of_file(path), {5, 0, storage, network.attach(), network.add_timer()}) {
+    fault = device.start();
+    if (fault.empty()) {
+      network.run([this] { return device.node().process() ? Micros{0} : device.node().due_in(); });
+      client.emplace(network, 5);
+    }
+  }
+
+  /// Returns the value of an object in words, or its abort code.
+  std::string read(std::uint16_t index, std::uint8_t sub_index = 0) {
+    const Transfer transfer = client->sdo().upload(index, sub_index, {65536, 1000, {}});
+    return transfer.done() ? device.description().show(index, sub_index, transfer.data) : transfer.outcome();
+  }
+  std::string write(std::uint16_t index, std::uint8_t sub_index, const Bytes& bytes) {
+    return client->sdo().download(index, sub_index, bytes).outcome();
+  }
+
+  VirtualNetwork network;
+  simulate::Device device;
+  std::string fault;
+  std::optional<DeviceClient> client;
+};
 
 /// Some simulated devices, a client of the first one, and all frames of the bus.
 struct SimulatedDevices {
