@@ -22,12 +22,14 @@ printed() {  # TEXT FILE
 }
 
 # Runs a program of python-can, which prints the verdicts.
-python_can() {  # ARGUMENT...
-  python3 /typed_frames.py "$@" >/tmp/typed 2>&1
+python_can() {  # PROGRAM ARGUMENT...
+  program=$1
+  shift
+  python3 "/$program.py" "$@" >/tmp/typed 2>&1
   status=$?
   grep -E "^(not )?ok " /tmp/typed
   cases=$((cases + $(grep -cE "^(not )?ok " /tmp/typed)))
-  verdict $status "lexican: python-can, $1" "$(tail -n 1 /tmp/typed)"
+  verdict $status "lexican: python-can, $program $1" "$(tail -n 1 /tmp/typed)"
 }
 
 receivers() { grep -c "vcan0 .* raw" /proc/net/can/rcvlist_all; }
@@ -67,7 +69,7 @@ tries=500
 until [ "$(receivers)" -ge $((others + 2)) ] || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
 cansend vcan0 000#0105
 cansend vcan0 085#1043090000000000
-python_can socketcan vcan0 5
+python_can typed_frames socketcan vcan0 5
 cangen vcan0 -g 0.2 -n 2000 -I i -L i -D i
 cangen vcan0 -g 0.2 -n 500 -I r -L r -D r -e
 cangen vcan0 -g 0.2 -n 500 -I r -L r -R
@@ -93,8 +95,8 @@ share=$!
 printed "/dev/pts/" /tmp/share
 grep -q "^hub:vcan0, socketcand 127.0.0.1:29536/can0.*, slcan-tcp:127.0.0.1:29537" /tmp/share
 verdict $? "lexican: share names its ways" "$(cat /tmp/share)"
-python_can socketcand 127.0.0.1 29536 5
-python_can slcan socket://127.0.0.1:29537 5
+python_can typed_frames socketcand 127.0.0.1 29536 5
+python_can typed_frames slcan socket://127.0.0.1:29537 5
 got=$(lexican read 5 1018:2 -i hub:vcan0 2>&1)
 [ "$got" = "1018h:02 product code = 0000C10Ch (u32)" ]
 verdict $? "lexican: read through the hub of share" "got '$got'"
@@ -120,3 +122,18 @@ status=$?
 verdict $? "lexican: Ctrl-C ends share with status 0, and no frame was lost" "status $status $(cat /tmp/share)"
 kill -TERM $server
 wait $server
+
+# sim: the devices of descriptions, read by frames that typed_walk.py writes out.
+simulated() {  # EDS NODE-ID EXPEDITED SEGMENTED
+  rm -f /tmp/sim
+  lexican sim "/descriptions/$1" --node "$2" -i vcan0 </dev/null >/tmp/sim 2>&1 &
+  simulation=$!
+  printed "^node $2 " /tmp/sim
+  python_can typed_walk socketcan vcan0 "$2" "/descriptions/$1" "$3" "$4"
+  kill -INT $simulation
+  wait $simulation
+  verdict $? "lexican: Ctrl-C ends sim $1 with status 0" "status $? $(cat /tmp/sim)"
+}
+simulated device.eds 7 30 2
+simulated servo.eds 8 80 0
+simulated clock.eds 9 40 5

@@ -50,21 +50,25 @@ def echoes(bus, other):
     return got
 
 
-def main():
-    kind, *place, node_id = sys.argv[1:]
+def bus_of(kind, place):
     if kind == "socketcan":
         options = {"channel": place[0]}
     elif kind == "slcan":
         options = {"channel": place[0], "bitrate": 500000, "sleep_after_open": 0}
     else:
         options = {"channel": "can0", "host": place[0], "port": int(place[1])}
-    bus = can.Bus(interface=kind, **options)
+    return can.Bus(interface=kind, **options)
+
+
+def main():
+    kind, *place, node_id = sys.argv[1:]
+    bus = bus_of(kind, place)
     good = True
     for name, request, answer in EXCHANGES:
         bus.send(can.Message(arbitration_id=0x600 + int(node_id), is_extended_id=False, data=bytes.fromhex(request)))
         good &= report(f"lexican: python-can by {kind}: {name}", answer, receive(bus, 0x580 + int(node_id)))
     if kind != "socketcan":
-        with can.Bus(interface=kind, **options) as other:
+        with bus_of(kind, place) as other:
             got = echoes(bus, other)
         same = got == list(range(FLOOD))
         good &= report(f"lexican: python-can by {kind}: {FLOOD} frames arrive in their order", True, same)
