@@ -63,7 +63,7 @@ all_cases() {
     "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
     -DCMAKE_CXX_FLAGS_DEBUG="-O0" -DLEXICAN_SANITIZE=address,$undefined \
-    -DLEXICAN_TEST_OPTIONS="-O0;-fno-sanitize=all" -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON || return
+    -DLEXICAN_TEST_OPTIONS="-O0;-fno-sanitize=all" -DLEXICAN_PRESET=sim -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON || return
   run_doctest "codict core" "$of/tests/lexican_codict_core_tests"
   run_doctest codict "$of/tests/lexican_codict_tests"
   run_doctest "codict program" "$of/tests/lexican_codict_program_tests"

@@ -61,7 +61,7 @@ if [ "$architecture" != "$(dpkg --print-architecture)" ]; then
 fi
 # The optimiser takes most of the build's time; the programs wait for the bus and for files.
 cmake --no-warn-unused-cli -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" \
-  -DLEXICAN_PRESET=full -DLEXICAN_TOOLS=ON -DLEXICAN_STATIC=ON -DLEXICAN_DEMO=OFF -DLEXICAN_TESTS=OFF "${arguments[@]}" "${@:3}"
+  -DLEXICAN_PRESET=sim -DLEXICAN_TOOLS=ON -DLEXICAN_STATIC=ON -DLEXICAN_DEMO=OFF -DLEXICAN_TESTS=OFF "${arguments[@]}" "${@:3}"
 cmake --build "$build" --target "$target"
 if [ -e "$build.libraries.outdated" ]; then
   echo "$0: warning: apt could not load all package lists: the libraries may lack security updates;" \
