@@ -8,9 +8,11 @@ A line "$ COMMAND" of a block of language text is run on a pseudo-terminal, whos
 lines after it are the expected output. /dev/ttyACM0 is the pseudo-terminal of the node, which is started anew for each
 page. Comments above a block prepare it:
   <!-- before: node ARGUMENTS -->  starts the node anew, with other arguments; -i BUS among them is LEXICAN_BUS
-  <!-- before: sim ARGUMENTS -->   starts `lexican sim` until the end of the page
+  <!-- before: sim ARGUMENTS -->   starts a simulation until the end of the page; the same one anew
+  <!-- before: wait SECONDS -->    waits
   <!-- before: COMMAND -->         runs a command of lexican
   <!-- not run: REASON -->         leaves the block out
+A line "sim> COMMAND" is typed into this simulation; the lines after it are not compared.
 The examples of `lexican VERB --help` are run, too, and must not be wrong use.
 """
 import os
@@ -27,7 +29,7 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
-PAGES = [*sorted((ROOT / "tools/lexican/docs").glob("*.md")), *sorted((ROOT / "docs/start").glob("[568]-*.md")),
+PAGES = [*sorted((ROOT / "tools/lexican/docs").glob("*.md")), *sorted((ROOT / "docs/start").glob("[5-8]-*.md")),
          ROOT / "README.md"]
 DEVICE = "/dev/ttyACM0"
 BUS = f"slcan:{DEVICE}@500k"
@@ -35,6 +37,7 @@ NODE_ARGUMENTS = ["--serial", str(0x80BBBA4B)]  # the serial number in the pages
 WRONG_USE = 2
 MOST_SECONDS = 30
 HEARTBEAT_SECONDS = 1.2  # and some more
+TYPING_SECONDS = 0.3  # until a simulation has executed a command
 LISTENING_SECONDS = 5  # of a command that ends with Ctrl-C, if fewer lines come than are expected
 
 BLOCK = re.compile(r"(?P<comments>(?:^<!-- [^\n]* -->\n)*)^```text\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -50,9 +53,11 @@ MASKS = [(re.compile(pattern, re.MULTILINE), replacement) for pattern, replaceme
     (r"^\d+ PDOs? in", "N PDOs in"),
     (r"bus load \d+\.\d %", "bus load N %"),
     (r"\(since \d+\.\d+ s\)$", "(since T s)"),  # a cause
-    (r"^ +\d+\.\d{3}(?= [0-9A-F]{3}#)", "T"),
+    (r"^ +\d+\.\d{3}(?= \S)", "T"),  # of a frame that shows it
     (r"\b\d+ times\b", "N times"),
     (r"in \d+ frames, \d+\.\d{3} s$", "in N frames, T s"),
+    (r"^sim> \n", ""),  # the prompt of a simulation
+    (r"not for \d+(\.\d+)? s", "not for T s"),
 )]
 
 
@@ -120,7 +125,7 @@ class Bench:
         self.directory = directory
         self.device = directory / "ttyACM0"
         self.process = None
-        self.simulations = []
+        self.simulations = {}  # by their arguments
         self.environment = {"PATH": os.environ["PATH"], "XDG_RUNTIME_DIR": str(directory), "NO_COLOR": "1",
                             "HOME": str(directory), "TERM": "xterm"}
         self.cases = 0
@@ -157,16 +162,25 @@ class Bench:
             self.process = None
 
     def start_simulation(self, words):
+        former = self.simulations.pop(tuple(words), None)
+        if former:
+            former.communicate("quit\n")
         process = subprocess.Popen([self.lexican, *words], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                   env=self.environment, cwd=self.directory, text=True)
-        self.simulations.append(process)
+                                   stderr=subprocess.DEVNULL, env=self.environment, cwd=self.directory, text=True,
+                                   bufsize=1)
+        self.simulations[tuple(words)] = process
         if not process.stdout.readline().startswith("node "):
             raise RuntimeError(f"it does not start: {shlex.join(words)}")
 
+    def type_into_simulation(self, command):
+        """Types a command into the simulation that was started last."""
+        list(self.simulations.values())[-1].stdin.write(command + "\n")
+        time.sleep(TYPING_SECONDS)
+
     def stop_simulations(self):
-        for process in self.simulations:
+        for process in self.simulations.values():
             process.communicate("quit\n")
-        self.simulations = []
+        self.simulations = {}
 
     def start(self, words):
         words = [word.replace(DEVICE, str(self.device)) for word in words]
@@ -190,13 +204,18 @@ class Bench:
             self.start_node(words[1:])
         elif words[0] == "sim":
             self.start_simulation(words)
+        elif words[0] == "wait":
+            time.sleep(float(words[1]))
         else:
             self.run(words)
 
 
 def run_block(bench, name, text, recorded):
     """Runs each command of a block, and compares its output. Adds the logs that they record to recorded."""
-    for command, expected in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
+    for prompt, command, expected in re.findall(r"^(\$|sim>) (.*)\n((?:(?!\$ |sim> ).*\n)*)", text, re.MULTILINE):
+        if prompt == "sim>":
+            bench.type_into_simulation(command)
+            continue
         words = shlex.split(command)
         if words[0] == "export":
             variable, value = words[1].split("=", 1)
@@ -209,7 +228,7 @@ def run_block(bench, name, text, recorded):
         bench.report(f"{name}: {command}", "" if same else "it shows")
         if not same:
             print(f"# status {status}\n{shown}\n# and not\n{expected}", flush=True)
-            if bench.process.poll() is not None:
+            if bench.process and bench.process.poll() is not None:
                 print(f"# the node has ended: {bench.process.poll()}", (bench.directory / "node.log").read_text())
 
 
@@ -224,7 +243,7 @@ def run_page(bench, page):
         if any(kind == "not run" for kind, _ in comments):
             blocks += 1
             continue
-        if not block["text"].startswith("$ "):
+        if not block["text"].startswith(("$ ", "sim> ")):
             continue
         for _, command in comments:
             bench.prepare(command)
