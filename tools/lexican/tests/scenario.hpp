@@ -144,7 +144,7 @@ class Scenario {
       described = {};
       knows_nothing_ = true;
     } else if (verb == "rate") {
-      rate = static_cast<std::uint32_t>(std::stoul(words.at(1)));
+      rate = static_cast<std::uint32_t>(std::stoul(words.at(1))) * (words[1].back() == 'k' ? 1000U : 1U);
     } else if (verb == "wait") {
       pass(time_of(words.at(1)));
     } else if (verb == "every") {

@@ -566,11 +566,16 @@ void Monitor::learn(std::uint8_t node, const SdoTransfer& transfer) {
   if (pdos_.find(at) == pdos_.end() && pdos_.size() >= most_pdos) {
     return;
   }
+  const bool is_new = pdos_.find(at) == pdos_.end();
   Pdo& pdo = pdos_[at];
   pdo.node = node;
   pdo.is_transmit = is_transmit;
   pdo.number = number;
   pdo.is_observed = true;
+  if (is_new && number <= 4) {
+    const unsigned function = 1U + 2U * number + (is_transmit ? 0U : 1U);
+    set_cob_id(at, pdo, function << 7 | node);  // until it is seen: the pre-defined connection set [301:7.3.3]
+  }
   const auto value =
       static_cast<std::uint32_t>(number_in(transfer.data.data(), 0, static_cast<unsigned>(8 * transfer.data.size())));
   pdo.is_configured = pdo.is_configured || transfer.is_download;

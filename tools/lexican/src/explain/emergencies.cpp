@@ -5,12 +5,14 @@
 #include <deque>
 
 #include "explain/check.hpp"
+#include "trace/network_services.hpp"
 
 namespace lexican::explain {
 namespace {
 
 constexpr std::size_t many = 10;  // EMCY messages within `soon`, or 3 times as many in a minute
 constexpr Micros soon = 5 * one_second;
+constexpr Micros active_time = 3 * one_second;
 constexpr std::uint16_t recovered_from_bus_off = 0x8140;
 
 class EmcyCheck : public Check {
@@ -25,9 +27,16 @@ class EmcyCheck : public Check {
     const auto node = static_cast<std::uint8_t>(*identifier & 0x7FU);
     const auto code = static_cast<std::uint16_t>(entry.frame.Data[0] | entry.frame.Data[1] << 8);
     if (code == 0) {
+      nodes_[node].active.clear();
+      findings_.remove(CauseId::error_active, node, 0);
       return;
     }
-    const std::string words = fmt::format("EMCY {:04X}h", code);
+    const std::string words = trace::decode_network_service(entry.frame, {}, {}).value_or("EMCY");
+    const bool is_communication = code >= 0x8100 && code < 0x8300;  // the other causes name their reasons
+    if (!is_communication) {
+      nodes_[node].active.add(entry, words);
+      nodes_[node].words = words;
+    }
     if (code == recovered_from_bus_off) {
       report_bus_off(node, entry, words);
     }
@@ -45,11 +54,30 @@ class EmcyCheck : public Check {
     }
   }
 
+  void advance(Micros now) override {
+    for (std::uint8_t node = 1; node <= 127; ++node) {
+      const Node& own = nodes_[node];
+      if (own.active.count() != 0 && now - own.active.until() > active_time) {
+        Finding finding{CauseId::error_active, node, 0, {}, {}, {}, {}, own.active};
+        finding.title = fmt::format("node {} reports an error that has not gone", node);
+        finding.text = fmt::format("{}. No EMCY with the code 0000h came since then.", own.words);
+        finding.check = fmt::format("the manual of the device; lexican read {0} 1001; lexican read {0} 1003:1", node);
+        finding.fix = fmt::format(
+            "the reason that the code names; then the reset of the device, for a drive: lexican "
+            "write {} 6040 0x80",
+            node);
+        findings_.put(std::move(finding));
+      }
+    }
+  }
+
  private:
   struct Node {
     std::deque<Micros> times;  ///< of the last minute
     Evidence evidence;
     Evidence bus_off;
+    Evidence active;    ///< errors that have not gone
+    std::string words;  ///< of the last one
     bool is_storm = false;
   };
 

@@ -35,8 +35,10 @@ struct Producer {
   unsigned alternations = 0;  ///< changes of the state without a command
   Micros alternated = 0;
   Evidence alternate;
+  bool is_heard = false;
   bool is_missing = false;
   Evidence missing;
+  Evidence restarts;  ///< boot-ups of a device in Operational without a command
 
   std::deque<Micros> boot_ups;  ///< without a command
   Evidence boots;
@@ -114,7 +116,8 @@ class ErrorControlCheck : public Check {
       const bool is_resetting =
           is_reset_since(node, producer.last) && now - facts_.node(node).commanded < longest_start;
       const Micros longest = *std::max_element(producer.intervals.begin(), producer.intervals.end());
-      if (elapsed > std::max(3 * period, 2 * longest) + 50 * one_ms && !is_resetting) {
+      const bool is_stopped = facts_.node(node).command == nmt::stop;  // it may be switched off on purpose
+      if (!is_stopped && elapsed > std::max(3 * period, 2 * longest) + 50 * one_ms && !is_resetting) {
         report_missing(node, now);
       }
     }
@@ -220,6 +223,7 @@ class ErrorControlCheck : public Check {
     if (producer.last != 0) {
       interval(node, entry.time - producer.last, entry);
     }
+    producer.is_heard = true;
     producer.last = entry.time;
     producer.last_entry = entry;
     producer.silence = 0;
@@ -231,11 +235,14 @@ class ErrorControlCheck : public Check {
     const NodeFacts& facts = facts_.node(node);
     const bool is_reset = facts.command == nmt::reset_node || facts.command == nmt::reset_communication;
     const bool is_excused = is_reset && facts.commanded != producer.excused;
-    producer.last = 0;
+    const Micros last = std::exchange(producer.last, 0);
     producer.state = nmt::boot_up;
     if (is_excused) {
       producer.excused = facts.commanded;
       return;
+    }
+    if (facts.state == nmt::operational && facts.heard > facts.state_since) {
+      report_restart(node, last, entry);
     }
     producer.boots.add(entry, "boot-up without a command");
     producer.boot_ups.push_back(entry.time);
@@ -257,6 +264,31 @@ class ErrorControlCheck : public Check {
       finding.fix = "the power supply, or the firmware: see what it did just before each boot-up (lexican mon)";
       findings_.put(std::move(finding));
     }
+  }
+
+  /// \a last: time of the last heartbeat; 0: none
+  void report_restart(std::uint8_t node, Micros last, const Entry& entry) {
+    Producer& producer = producers_[node];
+    if (std::exchange(producer.is_missing, false)) {
+      findings_.remove(CauseId::heartbeat_missing, node, 0);
+      producer.missing.clear();
+      producer.intervals.clear();
+    }
+    producer.restarts.add(entry, "boot-up without a command");
+    Finding finding{CauseId::restarted, node, 0, {}, {}, {}, {}, producer.restarts};
+    finding.title = fmt::format("node {} has started anew while it was Operational", node);
+    finding.text = fmt::format(
+        "{} boot-up without a reset by NMT{}. It is pre-operational now, and has the values that "
+        "it stores: what the master had set before is lost.",
+        producer.restarts.count() == 1 ? "A" : fmt::format("{} times a", producer.restarts.count()),
+        last != 0 ? fmt::format(", {} after its last heartbeat", time_text(entry.time - last)) : "");
+    finding.check =
+        fmt::format("supply voltage and connector of node {}; its watchdog; lexican mon, just before", node);
+    finding.fix = fmt::format(
+        "the supply or the firmware; then configure it again: lexican apply FILE -n {0}; lexican "
+        "nmt start {0}",
+        node);
+    findings_.put(std::move(finding));
   }
 
   void follow_state(std::uint8_t node, std::uint8_t state, const Entry& entry) {
@@ -334,9 +366,10 @@ class ErrorControlCheck : public Check {
         return false;
       }
     }
-    const Micros a = all[begin];
-    const Micros b = all[begin + 1];
-    return (a > b ? a - b : b - a) > std::max(a, b) / 4 + 2 * one_ms;
+    const Micros a = std::min(all[begin], all[begin + 1]);
+    const Micros b = std::max(all[begin], all[begin + 1]);
+    const bool is_loss = a > 0 && near((b + a / 2) / a * a, b);  // a multiple: each second heartbeat is lost
+    return !is_loss && (a > b ? a - b : b - a) > std::max(a, b) / 4 + 2 * one_ms;
   }
 
   void consume(Consumer& consumer, Micros interval, const Entry& entry) {
@@ -391,7 +424,7 @@ class ErrorControlCheck : public Check {
         report_consumer(consumer);
       }
       const Producer& producer = producers_[consumer.producer];
-      if (producer.last == 0 && producer.intervals.empty() && !is_reset_since(consumer.producer, 0)) {
+      if (!producer.is_heard && !is_reset_since(consumer.producer, 0)) {
         report_absent(consumer, entry);
       }
     }

@@ -19,6 +19,9 @@ struct Consequence {
 constexpr Consequence consequences[] = {
     {CauseId::bus_errors, CauseId::bus_off, true},
     {CauseId::boot_loop, CauseId::same_node_id, false},
+    {CauseId::restarted, CauseId::same_node_id, false},
+    {CauseId::restarted, CauseId::boot_loop, false},
+    {CauseId::error_active, CauseId::emcy_storm, false},
     {CauseId::cob_id_collision, CauseId::same_node_id, false},
     {CauseId::pdo_length, CauseId::same_node_id, false},
     {CauseId::sdo_busy, CauseId::same_node_id, false},

@@ -42,12 +42,17 @@ void Facts::frame(const Entry& entry) {
     hear(node, entry.time);
     nodes_[node].is_server = true;
   } else if (function >= 3 && function <= 10) {
+    bool is_known = false;
     monitor_.for_each_pdo(entry.frame, [&](const describe::KnownPdo& pdo) {
+      is_known = true;
       if (pdo.is_transmit) {
         hear(pdo.node, entry.time);
         nodes_[pdo.node].is_server = true;
       }
     });
+    if (!is_known && function % 2 == 1 && node != 0) {
+      hear(node, entry.time);  // a TPDO of the pre-defined connection set [301:7.3.3]
+    }
   }
 }
 
@@ -127,6 +132,10 @@ void Facts::transfer(std::uint8_t node, const describe::SdoTransfer& transfer) {
     value = value << 8 | transfer.data[n - 1];
   }
   KnownValue& known = values_[key];
+  const auto sync = static_cast<std::uint16_t>(value & 0x7FFU);
+  if (transfer.index == 0x1005 && !is_sync(sync) && syncs_.size() < 127) {
+    syncs_.push_back(sync);
+  }
   known = {value, transfer.time, known.is_written || transfer.is_download};
 }
 

@@ -3,6 +3,7 @@
 /// What is known of the nodes of a bus: their states, and the values of their objects.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -64,6 +65,10 @@ class Facts {
   /// Returns true if the node was told to enter a state, or to start anew, within a time.
   bool was_commanded(std::uint8_t node, Micros now, Micros within) const;
   bool is_operational(std::uint8_t node) const { return nodes_[node].state == nmt::operational; }
+  /// Returns true for the identifier of SYNC: 080h, and those of 1005h that were transferred.
+  bool is_sync(std::uint16_t identifier) const {
+    return identifier == 0x080 || std::find(syncs_.begin(), syncs_.end(), identifier) != syncs_.end();
+  }
   /// Returns the value of an object as it was transferred; nothing: it was not.
   std::optional<KnownValue> observed(std::uint8_t node, std::uint16_t index, std::uint8_t sub_index) const;
   /// Returns the value as it was transferred, else that of the description.
@@ -94,6 +99,7 @@ class Facts {
   const describe::Monitor& monitor_;
   std::array<NodeFacts, 128> nodes_{};
   std::map<Key, KnownValue> values_;
+  std::vector<std::uint16_t> syncs_;
   std::uint32_t bit_rate_;
   std::uint64_t frames_ = 0;
   Micros full_time_ = 0;

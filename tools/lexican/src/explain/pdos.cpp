@@ -117,6 +117,7 @@ class PdoCheck : public Check {
   struct NodePdos {
     Micros written = 0;  ///< an object by SDO
     Evidence length_errors;
+    bool has_length_finding = false;  ///< of an RPDO
     Evidence time_outs;
   };
   /// Frames with an identifier that no known PDO has.
@@ -187,6 +188,10 @@ class PdoCheck : public Check {
   }
 
   void report_length(const KnownPdo& pdo, const Evidence& evidence, const std::string& text) {
+    if (!pdo.is_transmit) {
+      nodes_[pdo.node].has_length_finding = true;
+      findings_.remove(CauseId::pdo_length, pdo.node, 0);
+    }
     Finding finding = finding_of(CauseId::pdo_length, pdo, evidence);
     finding.title = fmt::format("{} of node {} has another length than its mapping", name_of(pdo), pdo.node);
     finding.text = text;
@@ -236,6 +241,10 @@ class PdoCheck : public Check {
 
   void look_for_missing(std::uint8_t node, const std::vector<const KnownPdo*>& pdos, Micros now) {
     const NodeFacts& facts = facts_.node(node);
+    if (findings_.has(CauseId::heartbeat_missing, node)) {
+      findings_.remove(CauseId::rpdo_missing, node, 0);
+      return;  // it is not there
+    }
     bool has_none = true;
     for (const KnownPdo* const pdo : pdos) {
       const Seen& seen = seen_[key_of(*pdo)];
@@ -287,9 +296,10 @@ class PdoCheck : public Check {
       return;
     }
     const std::uint8_t length = entry.frame.DLC;
+    const bool is_sync = facts_.is_sync(identifier);
     const bool is_emergency_or_sdo = node != 0 && (function == 1 || function == 11 || function == 12);
     const bool is_error_control = node != 0 && function == 14;
-    if ((is_emergency_or_sdo && length != 8) || (is_error_control && length != 1)) {
+    if ((is_emergency_or_sdo && length != 8 && !is_sync) || (is_error_control && length != 1)) {
       Unknown& other = unknown_[identifier];
       other.evidence.add(entry, fmt::format("{} bytes", length));
       if (other.evidence.count() >= frames_needed) {
@@ -338,6 +348,9 @@ class PdoCheck : public Check {
     NodePdos& own = nodes_[node];
     if (code == too_short || code == too_long) {
       own.length_errors.add(entry, fmt::format("EMCY {:04X}h", code));
+      if (own.has_length_finding) {
+        return;
+      }
       Finding finding{CauseId::pdo_length, node, 0, {}, {}, {}, {}, own.length_errors};
       finding.title = fmt::format("node {} receives a PDO with another length than its mapping", node);
       finding.text = fmt::format("It sends EMCY {:04X}h: an RPDO was {} for what it maps.", code,
@@ -372,11 +385,12 @@ class SyncCheck : public Check {
   using Check::Check;
 
   void frame(const Entry& entry) override {
-    if (plain_identifier(entry.frame) == 0x080 && entry.frame.DLC <= 1) {
+    const std::optional<std::uint16_t> identifier = plain_identifier(entry.frame);
+    if (identifier && facts_.is_sync(*identifier) && entry.frame.DLC <= 1) {
+      identifier_ = *identifier;
       synchronise(entry);
       return;
     }
-    const std::optional<std::uint16_t> identifier = plain_identifier(entry.frame);
     if (identifier && *identifier > 0x180 && *identifier < 0x580) {
       PdoFrames& frames = frames_[*identifier];
       ++frames.count;
@@ -388,10 +402,19 @@ class SyncCheck : public Check {
     facts_.monitor().for_each_pdo(entry.frame, [&](const KnownPdo& pdo) {
       const auto found = pdo.is_transmit ? followers_.find(key_of(pdo)) : followers_.end();
       if (found != followers_.end()) {
-        ++found->second.frames;
-        found->second.last = entry;
+        Follower& follower = found->second;
+        follower.in_turn += count_ == follower.count + follower.type ? 1U : 0U;
+        follower.count = count_;
+        ++follower.frames;
+        follower.last = entry;
       }
     });
+  }
+
+  void transfer(std::uint8_t /*node*/, const describe::SdoTransfer& transfer) override {
+    if (transfer.index >= 0x1800 && transfer.index < 0x1A00 && transfer.is_download) {
+      followers_.clear();  // another transmission type
+    }
   }
 
   void advance(Micros now) override {
@@ -424,7 +447,9 @@ class SyncCheck : public Check {
     std::uint8_t type = 1;
     unsigned cycles = 0;
     unsigned frames = 0;
-    Micros begin = 0;  ///< of the cycles
+    unsigned in_turn = 0;     ///< frames that came in the cycle after that of the frame before
+    std::uint64_t count = 0;  ///< of the SYNCs at the last frame
+    Micros begin = 0;         ///< of the cycles
     Entry last;
   };
 
@@ -492,13 +517,13 @@ class SyncCheck : public Check {
       const NodeFacts& facts = facts_.node(std::get<0>(key));
       const bool is_sending = facts.state == nmt::operational && entry.time - facts.state_since > 200 * one_ms;
       if (!is_sending) {
-        follower.cycles = follower.frames = 0;
+        follower.cycles = follower.frames = follower.in_turn = 0;
         follower.begin = entry.time;
         continue;
       }
       if (++follower.cycles >= cycles_needed * follower.type) {
         judge(key, follower);
-        follower.cycles = follower.frames = 0;
+        follower.cycles = follower.frames = follower.in_turn = 0;
         follower.begin = entry.time;
       }
     }
@@ -511,19 +536,26 @@ class SyncCheck : public Check {
   void judge(const PdoKey& key, const Follower& follower) {
     const unsigned expected = follower.cycles / follower.type;
     const auto [node, is_transmit, number] = key;
-    const bool is_starved =
-        findings_.has(CauseId::bus_load, 0) ||
-        (follower.last.time != 0 && 2 * facts_.node(node).state_heard > follower.begin + last_.time);
-    if (follower.frames == 0 && !is_starved) {
-      return;  // the device may have another configuration than its description
+    const std::optional<KnownValue> listens = facts_.observed(node, 0x1005, 0);
+    if (follower.frames == 0 && listens && (listens->value & 0x7FFU) != identifier_) {
+      report_missing(node, last_.time,
+                     fmt::format("Node {} listens for SYNC on {:03X}h (1005h), and it comes on {:03X}h.", node,
+                                 listens->value & 0x7FFU, identifier_));
+      return;
+    }
+    const bool is_full = findings_.has(CauseId::bus_load, 0);
+    if (follower.frames == 0 && !is_full) {
+      return;  // the device may have another configuration than its description, or is off
     }
     Evidence evidence;
     evidence.add(last_, fmt::format("SYNC, each {}", time_text(period())));
     if (follower.last.time != 0) {
       evidence.add(follower.last, fmt::format("TPDO{} of node {}", number, node));
     }
-    // A device that has stopped to send is another fault.
-    const bool is_sending = is_starved || last_.time - follower.last.time < 5 * follower.type * period();
+    // A device that cannot follow misses SYNCs regularly; one that has stopped, or whose frames are lost, does not.
+    const bool is_regular =
+        last_.time - follower.last.time < 5 * follower.type * period() && follower.in_turn * 5 < follower.frames;
+    const bool is_sending = is_full || is_regular;
     if (follower.frames * 5 < expected * 4 && is_sending) {
       report_too_fast(node, 0x1000U + number, evidence,
                       fmt::format("TPDO{} of node {} came {} times in {} SYNCs, and has the transmission type {}.",
@@ -578,6 +610,7 @@ class SyncCheck : public Check {
   }
 
   std::uint64_t count_ = 0;
+  std::uint16_t identifier_ = 0x080;
   Entry last_;
   std::deque<Micros> periods_;
   std::map<PdoKey, Follower> followers_;

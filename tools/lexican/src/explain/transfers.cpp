@@ -159,6 +159,11 @@ class SdoCheck : public Check {
   }
 
   void refused(std::uint8_t node, const SdoTransfer& transfer) {
+    constexpr std::uint32_t no_sub_index = 0x06090011;
+    const bool is_optional = transfer.index >= 0x1400 && transfer.index < 0x1A00 && transfer.sub_index > 2;
+    if (is_optional && !transfer.is_download && transfer.abort_code == no_sub_index) {
+      return;  // a program looks for an optional parameter of a PDO
+    }
     const Access access{node, transfer.index, transfer.sub_index, transfer.is_download};
     if (refusals_.size() >= most_refusals && refusals_.find(access) == refusals_.end()) {
       return;
