@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <map>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -267,6 +268,7 @@ class FaultyServer {
 
   std::map<Key, Object> objects;
   std::set<Key> refuses;            ///< to be written
+  std::optional<CO_IF_FRM> pdo;     ///< sent before each answer
   unsigned silent_from = 1000;      ///< the answer to this write, and all that follow, are lost
   std::vector<std::string> writes;  ///< "180001=80000187"
 
@@ -301,6 +303,9 @@ class FaultyServer {
       value = found->second.value;
     }
     std::memcpy(frame.Data + 4, &value, sizeof value);
+    if (pdo) {
+      bus_->send(*pdo);
+    }
     if (writes.size() < silent_from) {
       bus_->send(frame);
     }
@@ -315,6 +320,27 @@ class FaultyServer {
 std::map<FaultyServer::Key, FaultyServer::Object> first_tpdo() {
   return {{0x101801, {1, 4}},   {0x101802, {2, 4}}, {0x101803, {3, 4}},         {0x180001, {0x187, 4}},
           {0x180002, {255, 1}}, {0x1A0000, {1, 1}}, {0x1A0001, {0x20010010, 4}}};
+}
+
+TEST_CASE("lexican pdo watch: PDOs that arrive before the mapping is read have the mapping of the device") {
+  Bench bench;
+  FaultyServer server(bench);
+  server.objects = first_tpdo();
+  server.objects[0x101801] = {0x100, 4};
+  server.objects[0x101802] = {0x402, 4};
+  server.objects[0x1A0000] = {2, 1};
+  server.objects[0x1A0001] = {0x20020020, 4};  // the description has the temperature first
+  server.objects[0x1A0002] = {0x20010010, 4};
+  server.pdo = CO_IF_FRM{0x187, {7, 0, 0, 0, 30, 0}, 6};
+  server.start();
+  const Ran ran = bench.run("pdo", {"watch", "7", "--for", "1", "--csv", "-", "--eds", eds});
+  server.stop();
+  const std::vector<std::string> lines = lines_of(ran.out);
+  REQUIRE(lines.size() > 2);
+  CHECK(lines.front() == "time,Position,Temperature");
+  CHECK(std::all_of(lines.begin() + 1, lines.end(),
+                    [](const std::string& row) { return row.substr(row.find(',')) == ",7,30"; }));
+  CHECK(ran.status == 0);
 }
 
 TEST_CASE("lexican pdo map: only what was written is restored") {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "describe/monitor.hpp"
 #include "describe/plot.hpp"
@@ -242,15 +243,20 @@ class Watch {
   }
 
   void process(const host_bus::Entry& entry) {
-    begin_ = begin_ == 0 ? entry.time : begin_;
-    last_ = std::max(last_, entry.time);
-    monitor_.process(entry);
-    if (entry.frame.Identifier == 0x700U + node_ && entry.frame.DLC == 1) {
-      note_state(entry.frame.Data[0] & 0x7FU);
-    }
-    const std::optional<PdoContent> content = monitor_.values_of(entry.frame, node_);
-    if (content) {
-      show(*content, seconds(entry.time));
+    follow(entry);
+    show_values(entry);
+  }
+
+  /// Processes a frame while the PDOs are read: its values are shown by show_early().
+  void process_early(const host_bus::Entry& entry) {
+    follow(entry);
+    early_.push_back(entry);
+  }
+
+  /// Shows the values of the early frames, by the PDOs that were read since then.
+  void show_early() {
+    for (const host_bus::Entry& entry : std::exchange(early_, {})) {
+      show_values(entry);
     }
   }
 
@@ -295,6 +301,22 @@ class Watch {
   }
 
  private:
+  void follow(const host_bus::Entry& entry) {
+    begin_ = begin_ == 0 ? entry.time : begin_;
+    last_ = std::max(last_, entry.time);
+    monitor_.process(entry);
+    if (entry.frame.Identifier == 0x700U + node_ && entry.frame.DLC == 1) {
+      note_state(entry.frame.Data[0] & 0x7FU);
+    }
+  }
+
+  void show_values(const host_bus::Entry& entry) {
+    const std::optional<PdoContent> content = monitor_.values_of(entry.frame, node_);
+    if (content) {
+      show(*content, seconds(entry.time));
+    }
+  }
+
   /// Says when a device that has sent PDOs stops doing so.
   void note_state(std::uint8_t state) {
     const bool has_left = received_ != 0 && state != 0x05 && state_ != state;
@@ -440,6 +462,7 @@ class Watch {
   std::vector<PdoName> pdos_;
   std::vector<EntryKey> keys_;
   std::vector<WatchedObject> objects_;
+  std::vector<host_bus::Entry> early_;  ///< before the PDOs are read
   PlotScreen screen_;
   std::ofstream csv_;
   std::size_t csv_columns_ = 0;  ///< 0: the first line is not written
@@ -480,7 +503,7 @@ int watch_bus(Watch& watch, const PdoOptions& options, std::uint8_t node, descri
     return status;
   }
   Session session(std::move(bus), node, [&](bool, const CO_IF_FRM& frame) {
-    watch.process({host_bus::clock_now(CLOCK_REALTIME), frame});
+    watch.process_early({host_bus::clock_now(CLOCK_REALTIME), frame});
   });
   PdoReader reader(session, node, network, options.common.timeout);
   Transfer transfer;
@@ -499,6 +522,7 @@ int watch_bus(Watch& watch, const PdoOptions& options, std::uint8_t node, descri
   if (!watch.open_files()) {
     return usage;
   }
+  watch.show_early();
   const Micros begin = session.host().now();
   const Micros duration = options.duration * second;
   while (!session.host().interrupted() && !watch.has_failed() &&
