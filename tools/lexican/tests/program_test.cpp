@@ -1482,19 +1482,21 @@ TEST_CASE("lexican apply: the COB-ID of a PDO that the file does not have is tha
   check(bench.run("read", {"5", "1A01:0"}), 0, "1A01h:00 TPDO mapping parameter = 1 (u8)\n", "");
 }
 
-TEST_CASE("lexican dump, apply: commands and process values are not written from a file") {
+TEST_CASE("lexican dump, apply: commands, set-points and process values are not written from a file") {
   Configured bench;
   std::string dcf = bytes_of(bench.dcf);
   const std::size_t output = dcf.find("[2000]");
   dcf.insert(dcf.find("\r\nPDOMapping", output) + 2, "ParameterValue=7\r\n");
   write_bytes(bench.dcf, dcf);
-  dcf +=
-      "[6040]\r\nParameterName=Controlword\r\nObjectType=0x7\r\nDataType=0x0006\r\nAccessType=rw\r\nParameterValue="
-      "15\r\n";
+  for (const char* index : {"6040", "6042", "6071", "607A", "60B1", "60C1", "60FE", "60FF", "68FF", "987A"}) {
+    dcf += std::string("[") + index +
+           "]\r\nParameterName=Target\r\nObjectType=0x7\r\nDataType=0x0006\r\nAccessType=rw\r\nParameterValue=15\r\n";
+  }
   dcf = std::regex_replace(dcf, std::regex("DefaultValue=0x00020192\r\n"), "");  // the profile is that of the device
   write_bytes(bench.dcf, dcf);
   check(bench.apply({}), 0, "0 of 10 values differ\n",
-        "lexican: not written from a file, as commands, process values or read-only: 2000h, 6040h\n");
+        "lexican: not written from a file, as commands, set-points, process values or read-only: 2000h, 6040h, 6042h, "
+        "6071h, 607Ah, 60B1h, 60C1h, 60FEh and 3 more\n");
   write_bytes(bench.dcf, std::regex_replace(dcf, std::regex("ProductNumber=[^\r]*"), "ProductNumber=0x403"));
   check(bench.run("dump", {"5", "--eds", bench.dcf}), 1, "",
         "lexican: the file is for 00000100:00000403, the device is 00000100:00000402; --force uses it all the same\n");

@@ -175,10 +175,14 @@ TEST_CASE("lexican dump, apply: the configuration of simulated devices") {
   const struct {
     const char* description;
     std::vector<Words> changes;
+    std::vector<Words> set_points{};  // not read, and not written
   } rows[] = {
       {"/demo/clock/generated/clock.eds", {{"1017", "1500"}, {"1800:5", "70"}}},
       {"/tools/lexican/tests/fixtures/device.eds", {{"1017", "1500"}, {"2003", "-1.5"}, {"2005", "axis 2"}}},
-      {"/tools/lexican/tests/fixtures/servo.eds", {{"6083", "50000"}, {"6065", "3000"}}},
+      {"/tools/lexican/tests/fixtures/servo.eds",
+       {{"6083", "50000"}, {"6065", "3000"}},
+       {{"607A", "7531"}, {"60FF", "8642"}}},
+      {"/tools/lexican/tests/fixtures/module.eds", {{"6207:1", "3"}}, {{"6411:1", "7531"}}},
       {"/demo/clock/clock.xdd", {{"1017", "1500"}, {"1800:5", "70"}}},
   };
   for (const auto& row : rows) {
@@ -188,9 +192,17 @@ TEST_CASE("lexican dump, apply: the configuration of simulated devices") {
     test::Process sim(bench.line("sim", {path, "--node", "5"}), bench.environment());
     sim.wait_for("node 5");
     const std::string dcf = bench.directory / "5.dcf";
+    for (const Words& set_point : row.set_points) {
+      const test::Ran write = bench.run("write", {"5", set_point[0], set_point[1], "--eds", path});
+      CHECK_MESSAGE(write.status == 0, write.err);
+    }
     const test::Ran dump = bench.run("dump", {"5", "-o", dcf, "--eds", path});
     CHECK(dump.status == 0);
     CHECK(!test::has(dump.out, "refused"));
+    CHECK(test::has(dump.out, ", set-points") == !row.set_points.empty());
+    for (const Words& set_point : row.set_points) {
+      CHECK(!test::has(test::bytes_of(dcf), "ParameterValue=" + set_point[1] + "\r\n"));
+    }
     const auto differences = [&](const char* option) {
       const test::Ran ran = bench.run("apply", {dcf, option});
       return ran.out.substr(0, ran.out.find(" of ")) + ", status " + std::to_string(ran.status);

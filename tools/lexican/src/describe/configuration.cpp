@@ -15,6 +15,7 @@ namespace lexican::describe {
 namespace {
 
 constexpr std::uint32_t no_upload_on_scan = 2;  // ObjFlags, bit 1. [306]
+constexpr std::uint32_t module_profile = 401;
 constexpr std::uint32_t drive_profile = 402;
 
 struct Commands {
@@ -22,20 +23,62 @@ struct Commands {
   std::uint16_t last;
 };
 
+/// Objects of a device profile with which something moves at once, at the first logical device; those of the others
+/// follow at each axis_distance.
+struct Motion {
+  std::uint32_t profile;
+  std::uint16_t first;
+  std::uint16_t last;
+  Part part;
+  std::uint8_t last_sub_index = 255;
+};
+
+constexpr std::uint16_t first_of_profiles = 0x6000;
+constexpr std::uint16_t behind_profiles = 0xA000;
+constexpr unsigned axis_distance = 0x800;
+
+constexpr Motion motions[] = {
+    {drive_profile, 0x6040, 0x6040, Part::command},       // controlword
+    {drive_profile, 0x6042, 0x6042, Part::set_point},     // vl target velocity
+    {drive_profile, 0x6071, 0x6071, Part::set_point},     // target torque
+    {drive_profile, 0x607A, 0x607A, Part::set_point},     // target position
+    {drive_profile, 0x60B0, 0x60B2, Part::set_point},     // offsets of position, velocity and torque
+    {drive_profile, 0x60C1, 0x60C1, Part::set_point},     // interpolation data record
+    {drive_profile, 0x60FE, 0x60FE, Part::set_point, 1},  // physical outputs, such as the brake; 2: their mask
+    {drive_profile, 0x60FF, 0x60FF, Part::set_point},     // target velocity
+    {module_profile, 0x6200, 0x6200, Part::set_point},    // outputs of 8 bits
+    {module_profile, 0x6220, 0x6227, Part::set_point},    // of 1 bit
+    {module_profile, 0x6300, 0x6300, Part::set_point},    // of 16 bits
+    {module_profile, 0x6320, 0x6320, Part::set_point},    // of 32 bits
+    {module_profile, 0x6410, 0x6414, Part::set_point},    // analogue outputs
+};
+
 /// Errors are cleared, parameters stored and restored, the configuration marked as verified, commands executed,
 /// programs loaded, and NMT commands sent.
 constexpr Commands commands[] = {{0x1003, 0x1003}, {0x1010, 0x1011}, {0x1020, 0x1020},
                                  {0x1023, 0x1026}, {0x1F50, 0x1F5F}, {0x1F82, 0x1F82}};
 
-bool is_command(const codict::Device& device, std::uint16_t index) {
-  const bool is_listed = std::any_of(std::begin(commands), std::end(commands), [=](const Commands& range) {
-    return index >= range.first && index <= range.last;
-  });
+bool is_command(std::uint16_t index) {
+  return std::any_of(std::begin(commands), std::end(commands),
+                     [=](const Commands& range) { return index >= range.first && index <= range.last; });
+}
+
+/// Returns the row of an object; null: nothing moves with it. A device whose type is unknown can be any of them.
+const Motion* motion_of(const codict::Device& device, const EntryKey& key) {
+  const std::uint16_t index = key.first;
+  const std::uint8_t sub_index = key.second;
+  if (index < first_of_profiles || index >= behind_profiles) {
+    return nullptr;
+  }
   const codict::Entry* const type = device.find(device_type.first, device_type.second);
   const bool is_type_known = type != nullptr && codict::value_in_force(*type).is_integer();
-  const bool is_drive = !is_type_known || (codict::value_in_force(*type).integer.bits() & 0xFFFFU) == drive_profile;
-  const bool is_controlword = index >= 0x6000 && index < 0xA000 && (index & 0x7FFU) == 0x040;
-  return is_listed || (is_drive && is_controlword);
+  const std::uint64_t profile = is_type_known ? codict::value_in_force(*type).integer.bits() & 0xFFFFU : 0U;
+  const unsigned of_profile = first_of_profiles + (index - first_of_profiles) % axis_distance;
+  const auto* const found = std::find_if(std::begin(motions), std::end(motions), [=](const Motion& row) {
+    const bool is_profile = !is_type_known || row.profile == profile;
+    return is_profile && of_profile >= row.first && of_profile <= row.last && sub_index <= row.last_sub_index;
+  });
+  return found != std::end(motions) ? found : nullptr;
 }
 
 codict::Entry* entry_of(codict::Device& device, const EntryKey& key) {
@@ -161,8 +204,12 @@ std::set<EntryKey> mapped_entries(const codict::Device& device) {
 Part part_of(const codict::Device& device, const EntryKey& key, const std::set<EntryKey>& mapped) {
   const codict::Entry& entry = *device.find(key.first, key.second);
   const codict::Access access = entry.access.value;
-  if (is_command(device, key.first)) {
+  if (is_command(key.first)) {
     return Part::command;
+  }
+  const Motion* const motion = motion_of(device, key);
+  if (motion != nullptr && codict::is_writable(access)) {
+    return motion->part;
   }
   if (codict::data_type_of(device, entry.data_type.value).kind == codict::TypeKind::domain) {
     return Part::domain;

@@ -25,7 +25,8 @@ enum class Part : std::uint8_t {
   write_only,     ///< its value cannot be read
   process_value,  ///< mapped in a PDO that is valid
   domain,
-  command,  ///< what is written has an effect at once: store, restore, program download, the controlword of a drive
+  command,    ///< what is written has an effect at once: store, restore, program download, the controlword of a drive
+  set_point,  ///< where a drive has to go, or an output of an I/O module
 };
 
 /// Removes all configured values from a description.

@@ -185,7 +185,7 @@ class Apply {
   bool has_downloads() const { return !downloads_.empty(); }
   const std::vector<Difference>& differences() const { return differences_; }
   const std::map<EntryKey, std::uint32_t>& refused() const { return refused_; }
-  /// Values of the file that are not written: commands, process values, read-only ones.
+  /// Values of the file that are not written: commands, set-points, process values, read-only ones.
   const std::vector<EntryKey>& left_out() const { return left_out_; }
   /// Values of the file that do not fit their types.
   const std::vector<EntryKey>& malformed() const { return malformed_; }
@@ -380,7 +380,7 @@ bool check_values(const Apply& apply, const ApplyOptions& options) {
     return false;
   }
   if (!apply.left_out().empty()) {
-    print_note(fmt::format("not written from a file, as commands, process values or read-only: {}",
+    print_note(fmt::format("not written from a file, as commands, set-points, process values or read-only: {}",
                            describe::keys_text(apply.left_out())));
   }
   return true;

@@ -114,11 +114,9 @@ std::string summary_of(const Dump& dump, Micros duration) {
     Part part;
     const char* words;
   };
-  constexpr Row rows[] = {{Part::read_only, "read-only"},
-                          {Part::process_value, "mapped in PDOs"},
-                          {Part::write_only, "write-only"},
-                          {Part::domain, "domains"},
-                          {Part::command, "commands"}};
+  constexpr Row rows[] = {{Part::read_only, "read-only"},   {Part::process_value, "mapped in PDOs"},
+                          {Part::write_only, "write-only"}, {Part::domain, "domains"},
+                          {Part::command, "commands"},      {Part::set_point, "set-points"}};
   std::string text = fmt::format("{} values in {:.1f} s", dump.read_entries(), static_cast<double>(duration) / 1e6);
   const char* separator = "; left out: ";
   for (const Row& row : rows) {
