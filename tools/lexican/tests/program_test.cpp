@@ -783,6 +783,9 @@ TEST_CASE("lexican nmt: a heartbeat that is slower than --timeout is waited for"
 TEST_CASE("lexican nmt: a device with a heartbeat and without SDO server can be stopped") {
   Bench bench;
   bench.add(12, "silent");
+  check(bench.run("read", {"12", "1000", "--timeout", "500"}), 3, "",
+        "lexican: node 12 sends heartbeats, but does not answer SDO requests; lexican why looks for the cause, "
+        "and lexican nmt reset 12 restarts it\n");
   check(bench.run("nmt", {"stop", "12", "--timeout", "1000"}), 0, "node 12 is stopped\n", "");
 }
 
@@ -885,7 +888,10 @@ TEST_CASE("lexican scan: devices with state, profile, identity and name") {
         "  12  pre-operational  -               -:-                -\n"
         " 127  not seen         402 drive       00000100:00000402  000001A2  SD-400\n"
         "3 nodes in T s\n");
-  CHECK(ran.err == "");
+  const std::string note =
+      "lexican: node 12 sends heartbeats, but does not answer SDO requests; lexican why looks for the cause, "
+      "and lexican nmt reset 12 restarts it\n";
+  CHECK(ran.err == note);
   CHECK(ran.status == 0);
   const Ran json = bench.run("scan", {"--json", "--timeout", "200"});
   check(json, 0,
@@ -895,7 +901,7 @@ TEST_CASE("lexican scan: devices with state, profile, identity and name") {
         "\n"
         R"({"device_type":131474,"name":"SD-400","node":127,"product":1026,"revision":65536,"serial":418,"vendor":256})"
         "\n",
-        "");
+        note);
   CHECK(fault_of(json.out, "scan") == "");
 }
 

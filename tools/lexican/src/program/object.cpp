@@ -340,6 +340,13 @@ int find_in_device(Session& session, const TransferOptions& options, Target& tar
   return find(options, target) ? ok : usage;
 }
 
+std::string hung_server_text(std::uint8_t node, const char* messages) {
+  return fmt::format(
+      "node {0} sends {1}, but does not answer SDO requests; lexican why looks for the cause, and lexican nmt reset "
+      "{0} restarts it",
+      node, messages);
+}
+
 int report_failure(Session& session, const Target& target, const Transfer& transfer) {
   const bool is_described = target.network.of(target.node).device() != nullptr;
   const char* const remedy = remedy_for(transfer.code, is_described);
@@ -356,8 +363,11 @@ int report_failure(Session& session, const Target& target, const Transfer& trans
     return bus_fault;
   }
   if (transfer.is_unanswered()) {
+    const char* const messages = session.messages();
     print_message(session.state() == 0x04
                       ? fmt::format("node {0} is stopped and answers no SDO: lexican nmt preop {0}", target.node)
+                  : messages != nullptr
+                      ? hung_server_text(target.node, messages)
                       : fmt::format("node {} does not answer; is it on this bus, with power, and at this bit rate? "
                                     "lexican scan shows who answers",
                                     target.node));

@@ -187,6 +187,11 @@ void report_conflicts(const Devices& found) {
       print_note(fmt::format("node {} has answered one request {} times: several devices may have this node-ID",
                              device.found.node, device.found.answers));
     }
+    constexpr std::uint8_t stopped = 4;
+    const bool has_answered = device.found.answers != 0 || device.vendor || device.product || !device.name.empty();
+    if (!has_answered && device.found.state && *device.found.state != stopped) {
+      print_note(hung_server_text(device.found.node, "heartbeats"));
+    }
   }
 }
 

@@ -41,6 +41,8 @@ class Session {
   BusHost& host() { return host_; }
   /// Returns the NMT state of the last heartbeat of the server during the transfers; nothing: none was received.
   std::optional<std::uint8_t> state() const { return state_; }
+  /// Returns the name of what the server has sent during the transfers, by the predefined identifiers; null: nothing.
+  const char* messages() const { return state_ ? "heartbeats" : messages_; }
   /// Returns true if the user has interrupted the program, or has cancelled the command.
   bool is_interrupted() const { return Interruption::happened() || host_.is_cancelled(); }
 
@@ -53,8 +55,21 @@ class Session {
   };
 
   void follow(bool is_received, const CO_IF_FRM& frame, std::uint8_t server) {
-    if (is_received && frame.Identifier == 0x700U + server && frame.DLC == 1) {
-      state_ = frame.Data[0] & 0x7FU;
+    if (!is_received || (frame.Identifier & 0x7FU) != server) {
+      return;
+    }
+    switch (frame.Identifier - server) {
+      case 0x700:
+        if (frame.DLC == 1) {
+          state_ = frame.Data[0] & 0x7FU;
+        }
+        break;
+      case 0x080: messages_ = "EMCY messages"; break;
+      case 0x180:
+      case 0x280:
+      case 0x380:
+      case 0x480: messages_ = "PDOs"; break;
+      default: break;
     }
   }
 
@@ -62,6 +77,7 @@ class Session {
   host_bus::Bus& bus_;
   BusHost& host_;
   std::optional<std::uint8_t> state_;
+  const char* messages_ = nullptr;
   DeviceClient client_;
 };
 
@@ -141,6 +157,8 @@ std::string shown(const Target& target, const Bytes& data);
 /// Returns "606Ch:00 velocity actual value = 1204 (i32)" and a line end.
 std::string line_of(const Target& target, const Bytes& data);
 
+/// Returns the message for a device that is there, although it does not answer SDO requests. \a messages: what it sends
+std::string hung_server_text(std::uint8_t node, const char* messages);
 /// Prints why a transfer has failed, and what to try.
 /// \retval status of the program
 int report_failure(Session& session, const Target& target, const Transfer& transfer);
