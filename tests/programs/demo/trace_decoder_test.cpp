@@ -139,7 +139,7 @@ TEST_CASE("trace: SYNC, TIME and EMCY messages are shown [301:7.2.5, 7.2.6, 7.2.
   CHECK(meaning("081#0063810118000000") == "EMCY 6300h data set, error register 81h");
   CHECK(meaning("0FF#3081110000050000") == "EMCY 8130h heartbeat or life guarding missing, error register 11h");
   CHECK(meaning("081#0000000000000000") == "EMCY 0000h error reset, error register 00h");
-  CHECK(meaning("081#2331050000000000") == "EMCY 3123h voltage, error register 05h");
+  CHECK(meaning("081#2331050000000000") == "EMCY 3123h mains voltage, error register 05h");
   CHECK(meaning("081#00A0010000000000") == "EMCY A000h unknown error code, error register 01h");
 }
 

@@ -196,6 +196,25 @@ TEST_CASE("monitor: SYNC and TIME") {
 TEST_CASE("monitor: EMCY") {
   Bus bus;
   CHECK(bus.frame(0x085, {0x10, 0x43, 0x09, 0, 0, 0, 0, 0}) == "!emcy 5 EMCY 4310h temperature, error register 09h");
+  const std::pair<unsigned, const char*> codes[] = {
+      {0x2310, "current on the output side"},
+      {0x3210, "voltage inside the device"},
+      {0x4210, "device temperature"},
+      {0x5530, "data storage"},
+      {0x6320, "data set"},
+      {0x7121, "motor blocked"},
+      {0x7305, "incremental sensor 1"},
+      {0x8611, "following error"},
+      {0x8612, "reference limit"},
+      {0x8613, "positioning controller"},
+      {0x8B00, "monitoring"},
+  };
+  for (const auto& [code, name] : codes) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%04Xh", code);
+    CHECK(bus.frame(0x085, {static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(code >> 8), 1, 0, 0, 0, 0, 0}) ==
+          std::string("!emcy 5 EMCY ") + text + ' ' + name + ", error register 01h");
+  }
   CHECK(bus.frame(0x085, {0x30, 0x81, 0x11, 0x7F, 0, 0, 0, 0}) ==
         "!emcy 5 EMCY 8130h heartbeat or life guarding missing, error register 11h, manufacturer-specific 7F 00 00 00 "
         "00");
