@@ -419,6 +419,30 @@ TEST_CASE("drive: an event-driven TPDO with the position is sent every 10 ms, an
   CHECK(bus.number(0x6064) == 50);
 }
 
+TEST_CASE("drive: an event-driven TPDO with position and speed has both of the same step") {
+  ProfileBus bus(servo_eds);
+  bus.write(0x1801, 0xC0000285, 4, 1);
+  bus.write(0x1801, 255, 1, 2);
+  bus.write(0x1A01, 0, 1);
+  bus.write(0x1A01, 0x60640020, 4, 1);
+  bus.write(0x1A01, 0x606C0020, 4, 2);
+  bus.write(0x1A01, 2, 1);
+  bus.write(0x1801, 0x40000285, 4, 1);
+  bus.write(0x6083, 10'000, 4);
+  bus.enable(3);
+  bus.master_starts();
+  bus.write(0x60FF, 1'000, 4);
+  bus.pass(90 * millisecond);  // the speed increases all the time
+  const std::vector<Bytes> frames = bus.received(0x285);
+  CHECK(frames.size() >= 7);
+  CHECK(frames.size() <= 10);
+  const auto is_part_old = [](const Bytes& one, const Bytes& next) {
+    return std::equal(one.begin(), one.begin() + 4, next.begin()) ||
+           std::equal(one.begin() + 4, one.end(), next.begin() + 4);
+  };
+  CHECK(std::adjacent_find(frames.begin(), frames.end(), is_part_old) == frames.end());
+}
+
 /// Writes the description of a drive with the objects of a second axis. Returns its path.
 std::string two_axes() {
   std::istringstream lines(bytes_of_file(servo_eds));

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "co_nvm_ram.h"
+#include "co_od.h"
 #include "describe/description.hpp"
 #include "file_nvm.hpp"
 #include "host/node.hpp"
@@ -52,6 +53,19 @@ class Device {
   bool put(std::uint16_t index, std::uint8_t sub_index, const Bytes& value, bool is_event);
   /// Returns the value of an object; nothing: it is none, or longer than 8 bytes.
   std::optional<Bytes> get(std::uint16_t index, std::uint8_t sub_index);
+
+  /// Holds TPDOs back during its lifetime. Then each one of which objects were set is sent once, with all new values.
+  class Hold {
+   public:
+    /// \a device: has a node, and keeps it.
+    explicit Hold(Device& device) : stack_(device.node_->stack()) { OD_lock(&stack_); }
+    ~Hold() { OD_unlock(&stack_); }
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+
+   private:
+    CO_NODE& stack_;
+  };
 
   /// Reports an error by EMCY; clear() reports that it has gone. \a code: EMCY error code, which also decides the bit
   /// of the error register (1001h). [301:7.2.7.1]

@@ -54,7 +54,12 @@ void Behaviours::start(Device& device) {
   device.dictionary().on_written([this](std::uint16_t index, std::uint8_t sub_index) {
     for_each([=](Behaviour& one) { one.written(index, sub_index); });
   });
-  device.on_pdo([this] { for_each([](Behaviour& one) { one.update(); }); });
+  device.on_pdo([this] { update(); });
+}
+
+void Behaviours::update() {
+  const Device::Hold hold(*device_);
+  for_each([](Behaviour& one) { one.update(); });
 }
 
 Micros Behaviours::process(Micros now) {
@@ -63,11 +68,13 @@ Micros Behaviours::process(Micros now) {
     for_each([](Behaviour& one) { one.reset(); });
   }
   if (events.is_separated) {
+    const Device::Hold hold(*device_);
     for_each([](Behaviour& one) { one.disconnected(); });
   }
-  for_each([](Behaviour& one) { one.update(); });
+  update();
   stepped_ = has_rested_ || now - stepped_ > longest_delay ? now : stepped_;
   for (; !are_at_rest() && now - stepped_ >= step_interval; stepped_ += step_interval) {
+    const Device::Hold hold(*device_);
     for_each([](Behaviour& one) {
       if (!one.is_at_rest()) {
         one.step(step_interval);
@@ -84,6 +91,7 @@ bool Behaviours::commanded(std::uint16_t index, std::uint8_t sub_index, const By
 }
 
 void Behaviours::raised(std::uint16_t code) {
+  const Device::Hold hold(*device_);
   for_each([=](Behaviour& one) { one.raised(code); });
 }
 

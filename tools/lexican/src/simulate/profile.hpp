@@ -55,6 +55,7 @@ class Behaviours {
   template <typename Call>
   void for_each(Call call);
   bool are_at_rest() const;
+  void update();
 
   Device* device_ = nullptr;
   std::vector<std::unique_ptr<Behaviour>> behaviours_;
