@@ -426,9 +426,19 @@ TEST_CASE("lexican apply: a device that stops answering in the middle of a PDO")
                     {0x1A0101, {0, 4}},          {0x1A0102, {0, 4}},          {0x200300, {0x3F000000, 4}},
                     {0x200400, {1, 1}},          {0x200500, {0x73697861, 4}}, {0x200A00, {5, 4}}};
   server.silent_from = 2;
+  server.pdo = CO_IF_FRM{0x187, {0}, 1};
   server.start();
+  check(
+      bench.run("apply", {dcf, "-n", "7", "--store", "--json"}), 1,
+      R"({"error":"node 7 cannot store parameters, as it has no 1010h:01: apply the file after each power-up, without )"
+      R"(--store\nnothing was written","status":1})"
+      "\n",
+      "lexican: node 7 cannot store parameters, as it has no 1010h:01: apply the file after each power-up, without "
+      "--store\nlexican: nothing was written\n");
+  CHECK(server.writes.empty());
   const Ran ran = bench.run("apply", {dcf, "-n", "7", "--timeout", "200"});
   CHECK(ran.status == 3);
+  CHECK(has(ran.err, "lexican: node 7 sends PDOs, but does not answer SDO requests; "));
   CHECK(has(ran.err, "lexican: 0 values were written, and TPDO2 may be switched off; the same command goes on\n"));
 }
 

@@ -148,6 +148,14 @@ class Apply {
     return true;
   }
 
+  /// Asks the device whether it can store its parameters.
+  /// \retval false  as compare()
+  bool check_store(bool& can_store) {
+    const bool has_answer = read({store_parameters, 1});
+    can_store = transfer_.code != CO_SDO_ERR_OBJ && transfer_.code != CO_SDO_ERR_SUB;
+    return has_answer;
+  }
+
   /// Prints a line for each difference. \a before: words for the value of the device, \a after: for that of the file.
   void print_differences() const {
     std::size_t width = 0;
@@ -397,6 +405,17 @@ int apply_to(Session& session, Apply& apply, std::uint8_t node, const ApplyOptio
   if (!apply.has_downloads()) {
     print_message(options.file + " has no values that can be written; lexican dump reads a DCF that has");
     return usage;
+  }
+  bool can_store = true;
+  if (options.stores && !options.shows_only && !apply.check_store(can_store)) {
+    return report_break(session, apply, node);
+  }
+  if (!can_store) {
+    print_message(fmt::format(
+        "node {} cannot store parameters, as it has no 1010h:01: apply the file after each power-up, without --store",
+        node));
+    print_message("nothing was written");
+    return refused;
   }
   if (!apply.compare()) {
     return report_break(session, apply, node);
