@@ -122,6 +122,9 @@ TEST_CASE("lexican: an unknown verb is refused with the nearest one") {
   CHECK(run({"--nonsense"}).status == 2);
   check(run({"scan", "--nonsense"}), 2, "",
         "lexican: The following argument was not expected: --nonsense; lexican scan --help shows the options\n");
+  check(
+      run({"scan", "--eds", "servo.eds", "5"}), 2, "",
+      "lexican: The following arguments were not expected: --eds servo.eds 5; lexican scan --help shows the options\n");
   check(run({"scan", "--timeout", "0"}), 2, "",
         "lexican: --timeout: Value 0 not in range 1 to 3600000; lexican scan --help shows the options\n");
   CHECK(run({"read", "5"}).status == 2);

@@ -33,9 +33,21 @@ std::string unknown_command(const CLI::App& app) {
   return has_none && words.front().substr(0, 1) != "-" ? words.front() : "";
 }
 
+// Returns the message for arguments that do not belong there, in their order: that of CLI11 has them in the reverse
+// one.
+std::string extras_text(const std::vector<std::string>& words) {
+  std::string text =
+      words.size() > 1 ? "The following arguments were not expected:" : "The following argument was not expected:";
+  for (const std::string& word : words) {
+    text += ' ' + word;
+  }
+  return text;
+}
+
 // Returns the message of a fault in the arguments, of which CLI11 writes some as sentences and some with a line end.
 std::string usage_fault_text(const CLI::App* app, const CLI::Error& error) {
-  std::string text = error.what();
+  const bool has_extras = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  std::string text = has_extras ? extras_text(app->remaining(true)) : error.what();
   while (!text.empty() && (text.back() == '\n' || text.back() == '.')) {
     text.pop_back();
   }
