@@ -342,6 +342,7 @@ class Mon {
       for (const Micros time : evidence.times()) {
         cause.times.push_back(seconds(time));
       }
+      std::sort(cause.times.begin(), cause.times.end());
       causes.push_back(std::move(cause));
     }
     return causes;
