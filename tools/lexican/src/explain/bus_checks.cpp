@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "explain/check.hpp"
 #include "frame_bits.hpp"
@@ -31,6 +32,9 @@ class BusCheck : public Check {
       return;
     }
     ++frames_;
+    if (frames_ % 1000 == 0 && are_errors_few()) {
+      findings_.remove(CauseId::bus_errors, 0, 0);
+    }
     const unsigned bits = co::frame_bits(entry.frame) + co::intermission_bits;
     if (begin_ == 0 || entry.time - begin_ >= window) {
       end_window();
@@ -47,13 +51,15 @@ class BusCheck : public Check {
     const auto load = [&](std::uint32_t rate) { return static_cast<double>(bits) * 2e2 / rate; };
     for (std::size_t n = 0; n < std::size(bit_rates); ++n) {
       const bool is_wire = facts_.is_rate_given() || load(bit_rates[n]) < 105;  // a simulated bus may have no rate
-      if (load(bit_rates[n]) > 80 && is_wire) {
+      in_row_[n] = load(bit_rates[n]) > 80 && is_wire ? in_row_[n] + 1 : 0;
+      is_overloaded_[n] = is_overloaded_[n] || in_row_[n] >= windows_needed;
+      if (in_row_[n] > 0) {
         loaded_[n].add(begin_, fmt::format("half a second with a load of {:.0f} %", load(bit_rates[n])));
       }
     }
     const std::uint32_t own = facts_.rate();
     for (std::size_t n = 0; n < std::size(bit_rates); ++n) {
-      if (bit_rates[n] == own && loaded_[n].count() >= windows_needed) {
+      if (bit_rates[n] == own && is_overloaded_[n]) {
         report_load(own, loaded_[n]);
       } else {
         findings_.remove(CauseId::bus_load, 0, bit_rates[n]);
@@ -82,6 +88,8 @@ class BusCheck : public Check {
     findings_.put(std::move(finding));
   }
 
+  bool are_errors_few() const { return std::uint64_t{errors_.count()} * 200 < frames_; }
+
   void error(const Entry& entry) {
     const std::uint32_t classes = entry.frame.Identifier & 0x1FFU;
     if ((classes & bus_off_class) != 0) {
@@ -105,7 +113,7 @@ class BusCheck : public Check {
     errors_.add(entry, is_passive                              ? "error passive"
                        : (classes & no_acknowledge_class) != 0 ? "not acknowledged"
                                                                : "bus error");
-    if (errors_.count() < errors_needed || std::uint64_t{errors_.count()} * 200 < frames_) {
+    if (errors_.count() < errors_needed || are_errors_few() || !errors_.is_news()) {
       return;
     }
     const bool is_unacknowledged = unacknowledged_ * 2 > errors_.count();
@@ -122,6 +130,8 @@ class BusCheck : public Check {
   Micros begin_ = 0;  ///< of the window
   std::uint64_t bits_ = 0;
   std::array<Evidence, std::size(bit_rates)> loaded_{};
+  std::array<unsigned, std::size(bit_rates)> in_row_{};
+  std::array<bool, std::size(bit_rates)> is_overloaded_{};
   Evidence bus_off_;
   Evidence errors_;
   unsigned unacknowledged_ = 0;

@@ -21,14 +21,16 @@ class EmcyCheck : public Check {
 
   void frame(const Entry& entry) override {
     const std::optional<std::uint16_t> identifier = plain_identifier(entry.frame);
+    if (identifier && *identifier > 0x700 && entry.frame.DLC == 1 && entry.frame.Data[0] == nmt::boot_up) {
+      forget_error(static_cast<std::uint8_t>(*identifier & 0x7FU));
+    }
     if (!identifier || *identifier <= 0x080 || *identifier > 0x0FF || entry.frame.DLC != 8) {
       return;
     }
     const auto node = static_cast<std::uint8_t>(*identifier & 0x7FU);
     const auto code = static_cast<std::uint16_t>(entry.frame.Data[0] | entry.frame.Data[1] << 8);
     if (code == 0) {
-      nodes_[node].active.clear();
-      findings_.remove(CauseId::error_active, node, 0);
+      forget_error(node);
       return;
     }
     const std::string words = trace::decode_network_service(entry.frame, {}, {}).value_or("EMCY");
@@ -48,8 +50,8 @@ class EmcyCheck : public Check {
     const std::size_t count = own.times.size();
     own.evidence.add(entry, words);
     const bool is_storm = (count >= many && entry.time - own.times[count - many] <= soon) || count >= 3 * many;
-    if (is_storm || own.is_storm) {
-      own.is_storm = true;
+    own.is_storm = own.is_storm || is_storm;
+    if (own.is_storm && own.evidence.is_news()) {
       report_storm(node, code);
     }
   }
@@ -80,6 +82,11 @@ class EmcyCheck : public Check {
     std::string words;  ///< of the last one
     bool is_storm = false;
   };
+
+  void forget_error(std::uint8_t node) {
+    nodes_[node].active.clear();
+    findings_.remove(CauseId::error_active, node, 0);
+  }
 
   void report_bus_off(std::uint8_t node, const Entry& entry, const std::string& words) {
     nodes_[node].bus_off.add(entry, words + " recovered from bus-off");

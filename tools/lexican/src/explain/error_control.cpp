@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <utility>
 
 #include "explain/check.hpp"
 
@@ -11,8 +12,9 @@ namespace lexican::explain {
 namespace {
 
 constexpr std::size_t intervals_kept = 8;
-constexpr std::size_t intervals_needed = 3;  // for a period
-constexpr std::size_t alternating = 6;       // intervals that show two producers
+constexpr std::size_t intervals_needed = 3;   // for a period
+constexpr std::size_t alternating = 6;        // intervals that show two producers
+constexpr Micros shortest_gap = 50 * one_ms;  // without heartbeat, that counts
 constexpr Micros longest_start = 10 * one_second;
 constexpr unsigned guarding_needed = 3;
 constexpr std::uint16_t communication_error = 0x8130;  // EMCY: life guarding or heartbeat error
@@ -22,7 +24,7 @@ struct Loop {
   std::size_t boot_ups;
   Micros within;
 };
-constexpr Loop loops[] = {{3, 30 * one_second}, {4, 120 * one_second}};
+constexpr Loop loops[] = {{3, 30 * one_second}, {4, 120 * one_second}, {5, 600 * one_second}};
 
 /// The heartbeat of a node.
 struct Producer {
@@ -33,6 +35,7 @@ struct Producer {
   std::deque<Micros> intervals;
   std::uint8_t state = nmt::boot_up;
   unsigned alternations = 0;  ///< changes of the state without a command
+  unsigned heartbeats = 0;    ///< since the first of them
   Micros alternated = 0;
   Evidence alternate;
   bool is_heard = false;
@@ -66,6 +69,7 @@ struct Consumer {
   std::uint8_t sub_index = 0;
   std::uint8_t producer = 0;
   Micros time = 0;
+  Micros since = 0;  ///< the value was seen; of a description the first frame
   unsigned intervals = 0;
   unsigned violations = 0;
   Evidence evidence;
@@ -94,8 +98,9 @@ class ErrorControlCheck : public Check {
   }
 
   void transfer(std::uint8_t node, const describe::SdoTransfer& transfer) override {
-    if (transfer.index == 0x1016 && transfer.end == describe::SdoTransfer::End::done && is_prepared_) {
-      read_consumers(node);
+    if (transfer.index == 0x1016 && transfer.sub_index >= 1 && transfer.sub_index <= 127 && is_prepared_ &&
+        transfer.end == describe::SdoTransfer::End::done) {
+      read_consumer(node, transfer.sub_index);
     }
     if (transfer.index == 0x1017 && transfer.is_download && transfer.end == describe::SdoTransfer::End::done) {
       producers_[node].last = 0;  // another period, or none
@@ -106,10 +111,14 @@ class ErrorControlCheck : public Check {
   void advance(Micros now) override {
     for (std::uint8_t node = 1; node <= 127; ++node) {
       Producer& producer = producers_[node];
-      const Micros period = producer.period();
-      if (producer.last == 0 || producer.intervals.size() < intervals_needed || now <= producer.last) {
+      if (producer.is_requested && now - producer.request.time > 2 * one_second) {
+        producer.is_requested = false;
+        miss_guarding(node);
+      }
+      if (producer.last == 0 || producer.intervals.size() < intervals_needed || now <= producer.last + shortest_gap) {
         continue;
       }
+      const Micros period = producer.period();
       // Heartbeats have a low priority: while the bus is full, they wait.
       const Micros unusual = producer.silence + facts_.full_time() - producer.full_time;
       const Micros elapsed = now - producer.last - std::min(unusual, now - producer.last);
@@ -117,7 +126,7 @@ class ErrorControlCheck : public Check {
           is_reset_since(node, producer.last) && now - facts_.node(node).commanded < longest_start;
       const Micros longest = *std::max_element(producer.intervals.begin(), producer.intervals.end());
       const bool is_stopped = facts_.node(node).command == nmt::stop;  // it may be switched off on purpose
-      if (!is_stopped && elapsed > std::max(3 * period, 2 * longest) + 50 * one_ms && !is_resetting) {
+      if (!is_stopped && elapsed > std::max(3 * period, 2 * longest) + shortest_gap && !is_resetting) {
         report_missing(node, now);
       }
     }
@@ -136,24 +145,27 @@ class ErrorControlCheck : public Check {
   }
 
   void read_consumers(std::uint8_t node) {
-    const std::uint32_t count = std::min(facts_.value(node, 0x1016, 0).value_or(127), 127U);
+    const std::uint32_t count = std::min(facts_.value(node, 0x1016, 0).value_or(0), 127U);
     for (std::uint8_t sub_index = 1; sub_index <= count; ++sub_index) {
-      const std::uint32_t value = facts_.value(node, 0x1016, sub_index).value_or(0);
-      const auto producer = static_cast<std::uint8_t>(value >> 16 & 0xFFU);
-      const Micros time = (value & 0xFFFFU) * one_ms;
-      const auto known = std::find_if(consumers_.begin(), consumers_.end(), [&](const Consumer& consumer) {
-        return consumer.node == node && consumer.sub_index == sub_index;
-      });
-      const bool is_used = producer >= 1 && producer <= 127 && time != 0;
-      if (known != consumers_.end() && is_used && known->producer == producer && known->time == time) {
-        continue;
-      }
-      if (known != consumers_.end()) {
-        consumers_.erase(known);
-      }
-      if (is_used) {
-        consumers_.push_back({node, sub_index, producer, time, 0, 0, {}});
-      }
+      read_consumer(node, sub_index);
+    }
+  }
+
+  void read_consumer(std::uint8_t node, std::uint8_t sub_index) {
+    const std::uint32_t value = facts_.value(node, 0x1016, sub_index).value_or(0);
+    const auto producer = static_cast<std::uint8_t>(value >> 16 & 0xFFU);
+    const Micros time = (value & 0xFFFFU) * one_ms;
+    const bool is_used = producer >= 1 && producer <= 127 && time != 0;
+    std::uint8_t& former = producer_of_[{node, sub_index}];
+    const std::pair<std::uint8_t, std::uint8_t> entry{node, sub_index};
+    const auto known = consumers_[former].find(entry);
+    if (known != consumers_[former].end() && is_used && former == producer && known->second.time == time) {
+      return;
+    }
+    consumers_[former].erase(entry);
+    former = is_used ? producer : std::uint8_t{0};
+    if (is_used) {
+      consumers_[producer][entry] = {node, sub_index, producer, time, facts_.now(), 0, 0, {}};
     }
   }
 
@@ -181,14 +193,19 @@ class ErrorControlCheck : public Check {
   void guard(std::uint8_t node, const Entry& entry) {
     Producer& producer = producers_[node];
     if (producer.is_requested) {
-      ++producer.unanswered;
-      producer.guarding.add(producer.request, "guarding request without answer");
-      if (producer.unanswered >= guarding_needed) {
-        report_guarding(node);
-      }
+      miss_guarding(node);
     }
     producer.is_requested = true;
     producer.request = entry;
+  }
+
+  void miss_guarding(std::uint8_t node) {
+    Producer& producer = producers_[node];
+    ++producer.unanswered;
+    producer.guarding.add(producer.request, "guarding request without answer");
+    if (producer.unanswered >= guarding_needed && producer.guarding.is_news()) {
+      report_guarding(node);
+    }
   }
 
   void report_guarding(std::uint8_t node) {
@@ -244,10 +261,20 @@ class ErrorControlCheck : public Check {
     if (facts.state == nmt::operational && facts.heard > facts.state_since) {
       report_restart(node, last, entry);
     }
+    const bool is_common = last_boot_ != 0 && last_boot_node_ != node && entry.time - last_boot_ < one_second;
+    Producer& other = producers_[last_boot_node_];
+    if (is_common && !other.boot_ups.empty() && other.boot_ups.back() == last_boot_) {
+      other.boot_ups.pop_back();
+    }
+    last_boot_ = entry.time;
+    last_boot_node_ = node;
+    if (is_common) {
+      return;  // the supply of several devices was switched on
+    }
     producer.boots.add(entry, "boot-up without a command");
     producer.boot_ups.push_back(entry.time);
     constexpr std::size_t most_boot_ups = 100;
-    while (entry.time - producer.boot_ups.front() > loops[1].within || producer.boot_ups.size() > most_boot_ups) {
+    while (entry.time - producer.boot_ups.front() > loops[2].within || producer.boot_ups.size() > most_boot_ups) {
       producer.boot_ups.pop_front();
     }
     const std::size_t count = producer.boot_ups.size();
@@ -294,6 +321,7 @@ class ErrorControlCheck : public Check {
   void follow_state(std::uint8_t node, std::uint8_t state, const Entry& entry) {
     Producer& producer = producers_[node];
     const std::uint8_t before = std::exchange(producer.state, state);
+    ++producer.heartbeats;
     if (before == state || before == nmt::boot_up) {
       return;
     }
@@ -305,11 +333,13 @@ class ErrorControlCheck : public Check {
       producer.alternations = 0;
       return;
     }
-    producer.alternations = entry.time - producer.alternated < 5 * one_second ? producer.alternations + 1 : 1;
+    const bool is_soon = entry.time - producer.alternated < 5 * one_second;
+    producer.alternations = is_soon ? producer.alternations + 1 : 1;
+    producer.heartbeats = is_soon ? producer.heartbeats : 1;
     producer.alternated = entry.time;
     producer.alternate.add(entry, "heartbeat with another state");
     constexpr unsigned needed = 4;
-    if (producer.alternations >= needed) {
+    if (producer.alternations >= needed && producer.alternations * 3 >= producer.heartbeats) {
       report_same_id(node, producer.alternate,
                      fmt::format("Its heartbeats alternate between two states, {} times without an NMT command: "
                                  "two devices send them.",
@@ -322,7 +352,7 @@ class ErrorControlCheck : public Check {
     finding.title = fmt::format("two devices have the node-ID {}", node);
     finding.text = text;
     finding.check = fmt::format("switch off one of them: lexican scan has to lose node {}", node);
-    finding.fix = "give one of them another node-ID: its switches, or lexican lss assign SERIAL=ID";
+    finding.fix = "give one of them another node-ID: its switches, or lexican lss assign SERIAL=ID --store";
     findings_.put(std::move(finding));
   }
 
@@ -337,15 +367,13 @@ class ErrorControlCheck : public Check {
     if (producer.intervals.size() > intervals_kept) {
       producer.intervals.pop_front();
     }
-    for (Consumer& consumer : consumers_) {
-      if (consumer.producer == node) {
-        consume(consumer, interval, entry);
-      }
+    for (auto& item : consumers_[node]) {
+      consume(item.second, interval, entry);
     }
     if (is_alternating(producer)) {
       Evidence evidence;
       evidence.add(producer.last_entry, "heartbeat");
-      evidence.add(entry, fmt::format("heartbeat after {}", time_text(interval)));
+      evidence.add(entry, [&] { return fmt::format("heartbeat after {}", time_text(interval)); });
       report_same_id(node, evidence,
                      fmt::format("Its heartbeats come after {} and {} in turn: two devices send them, each with its "
                                  "period.",
@@ -373,8 +401,7 @@ class ErrorControlCheck : public Check {
   }
 
   void consume(Consumer& consumer, Micros interval, const Entry& entry) {
-    const std::optional<KnownValue> written = facts_.observed(consumer.node, 0x1016, consumer.sub_index);
-    if (written && written->time + interval > entry.time) {
+    if (consumer.since + interval > entry.time) {
       return;  // the interval began before
     }
     ++consumer.intervals;
@@ -384,7 +411,7 @@ class ErrorControlCheck : public Check {
     ++consumer.violations;
     consumer.evidence.add(
         entry, fmt::format("heartbeat of node {}, {} after the one before", consumer.producer, time_text(interval)));
-    if (consumer.violations >= 2 && consumer.violations * 2 > consumer.intervals) {
+    if (consumer.violations >= 2 && consumer.violations * 2 > consumer.intervals && consumer.evidence.is_news()) {
       report_consumer(consumer);
     }
   }
@@ -392,6 +419,10 @@ class ErrorControlCheck : public Check {
   void report_consumer(const Consumer& consumer) {
     const Producer& own = producers_[consumer.node];
     const Micros period = producers_[consumer.producer].period();
+    if (period == 0 || !findings_.accepts(CauseId::heartbeat_time, consumer.node, consumer.sub_index)) {
+      return;
+    }
+    findings_.remove(CauseId::heartbeat_time, consumer.node, 0);  // found before without the entry
     const std::string key = fmt::format("1016h:{:02X}", consumer.sub_index);
     Finding finding{CauseId::heartbeat_time, consumer.node, consumer.sub_index, {}, {}, {}, {}, consumer.evidence};
     finding.evidence.show_also(own.emergencies);
@@ -402,10 +433,10 @@ class ErrorControlCheck : public Check {
     finding.text = fmt::format("It expects a heartbeat of node {0} every {1} ({2}){3}; node {0} sends one every {4}.",
                                consumer.producer, time_text(consumer.time), key,
                                own.emergencies.count() != 0 ? " and sends EMCY 8130h" : "", time_text(period));
-    finding.check = fmt::format("lexican read {} 1016:{}; lexican read {} 1017", consumer.node, consumer.sub_index,
+    finding.check = fmt::format("lexican read {} 1016:{:X}; lexican read {} 1017", consumer.node, consumer.sub_index,
                                 consumer.producer);
     const Micros enough = std::min<Micros>(period * 3 / 2 / one_ms, 0xFFFF);
-    finding.fix = fmt::format("lexican write {} 1016:{} 0x{:08X}", consumer.node, consumer.sub_index,
+    finding.fix = fmt::format("lexican write {} 1016:{:X} 0x{:08X}", consumer.node, consumer.sub_index,
                               static_cast<std::uint32_t>(consumer.producer) << 16 | enough);
     findings_.put(std::move(finding));
   }
@@ -413,18 +444,22 @@ class ErrorControlCheck : public Check {
   /// A device reports that a heartbeat, or the guarding by the master, does not come.
   void emergency(std::uint8_t node, const Entry& entry) {
     Producer& own = producers_[node];
-    own.emergencies.add(entry, fmt::format("EMCY 8130h of node {}", node));
+    own.emergencies.add(entry, [&] { return fmt::format("EMCY 8130h of node {}", node); });
     bool is_explained = producers_[node].guarding.count() != 0 || own.has_answered || own.is_requested;
-    for (const Consumer& consumer : consumers_) {
-      if (consumer.node != node) {
+    for (auto item = producer_of_.lower_bound({node, 0}); item != producer_of_.end() && item->first.first == node;
+         ++item) {
+      const auto found = consumers_[item->second].find(item->first);
+      if (found == consumers_[item->second].end()) {
         continue;
       }
-      is_explained = true;
+      const Consumer& consumer = found->second;
       if (consumer.violations >= 2 && consumer.violations * 2 > consumer.intervals) {
+        is_explained = true;
         report_consumer(consumer);
       }
       const Producer& producer = producers_[consumer.producer];
       if (!producer.is_heard && !is_reset_since(consumer.producer, 0)) {
+        is_explained = true;
         report_absent(consumer, entry);
       }
     }
@@ -436,14 +471,14 @@ class ErrorControlCheck : public Check {
       finding.text = fmt::format("It sent EMCY 8130h {} times, and no heartbeat is missing. Its 1016h is not known.",
                                  own.emergencies.count());
       finding.check = fmt::format("lexican read {} 1016:1, and 1017 of the node that it names", node);
-      finding.fix = fmt::format("lexican write {} 1016:1 with a time of 1.5 periods of the producer", node);
+      finding.fix = fmt::format("1.5 periods of the producer as its time: lexican write {} 1016:1 VALUE", node);
       findings_.put(std::move(finding));
     }
   }
 
   void report_absent(const Consumer& consumer, const Entry& entry) {
     Evidence evidence;
-    evidence.add(entry, fmt::format("EMCY 8130h of node {}", consumer.node));
+    evidence.add(entry, [&] { return fmt::format("EMCY 8130h of node {}", consumer.node); });
     Finding finding{CauseId::heartbeat_missing, consumer.producer, 0, {}, {}, {}, {}, evidence};
     finding.title =
         fmt::format("node {} sends no heartbeat, and node {} waits for it", consumer.producer, consumer.node);
@@ -482,7 +517,11 @@ class ErrorControlCheck : public Check {
   }
 
   std::array<Producer, 128> producers_{};
-  std::vector<Consumer> consumers_;
+  using ConsumerKey = std::pair<std::uint8_t, std::uint8_t>;      ///< node, sub-index
+  std::array<std::map<ConsumerKey, Consumer>, 128> consumers_{};  ///< by the producer; 0: none
+  std::map<ConsumerKey, std::uint8_t> producer_of_;
+  Micros last_boot_ = 0;  ///< boot-up without a command, of any node
+  std::uint8_t last_boot_node_ = 0;
   bool is_prepared_ = false;
 };
 

@@ -72,13 +72,28 @@ Explainer::Explainer(const describe::Network& network, std::uint32_t bit_rate, d
 void Explainer::process(const Entry& received) {
   Entry entry = received;
   entry.frame.DLC = std::min<std::uint8_t>(entry.frame.DLC, 8);
-  entry.time = std::max(entry.time, facts_.now());  // a log may jump backwards
+  entry.time = continuous(entry.time);
   for (const std::unique_ptr<Check>& check : checks_) {
     check->frame(entry);
   }
   facts_.frame(entry);
   monitor_.process(entry);
   advance(entry.time);
+}
+
+/// Several logs in one, or a clock that was set, let the time jump: that is a pause.
+Micros Explainer::continuous(Micros time) {
+  constexpr Micros longest_pause = 3600 * one_second;
+  constexpr Micros pause = 60 * one_second;
+  const Micros last = facts_.now();
+  const Micros shifted = time + shift_;  // modulo 2^64
+  const bool is_jump = last != 0 && shifted - last > longest_pause && last - shifted > one_second;
+  if (is_jump) {
+    shift_ = last + pause - time;
+    facts_.forget_states();
+    return last + pause;
+  }
+  return std::max(shifted, last);
 }
 
 void Explainer::advance(Micros now) {

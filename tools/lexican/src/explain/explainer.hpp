@@ -22,16 +22,21 @@ class Explainer {
 
   /// Returns the causes so far, without those that are consequences of others: by cause, then by node.
   std::vector<Finding> findings() const;
+  /// Returns true if there are more causes than findings() returns.
+  bool is_cut() const { return findings_.is_cut(); }
   const describe::Statistics& statistics() const { return monitor_.statistics(); }
   /// Returns the number of EMCY messages, failed SDO transfers and error frames, explained or not.
   unsigned faults() const { return faults_; }
 
  private:
+  Micros continuous(Micros time);
+
   Findings findings_;
   describe::Monitor monitor_;
   Facts facts_;
   std::vector<std::unique_ptr<Check>> checks_;
   Micros advanced_ = 0;
+  Micros shift_ = 0;  ///< of the times, modulo 2^64
   unsigned faults_ = 0;
 };
 

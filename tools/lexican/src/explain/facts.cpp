@@ -64,23 +64,38 @@ void Facts::learn_rate(const Entry& entry) {
   const unsigned bits = co::frame_bits(entry.frame) + co::intermission_bits;
   if (now_ != 0 && entry.time > now_) {
     const double speed = static_cast<double>(bits) * 1e6 / static_cast<double>(entry.time - now_);
+    const bool is_other = entry.frame.Identifier != identifier_;
     for (std::size_t n = 0; n < std::size(bit_rates); ++n) {
       faster_[n] += speed > 1.05 * bit_rates[n] ? 1U : 0U;
+      adjacent_[n] += is_other && speed > 0.95 * bit_rates[n] && speed < 1.05 * bit_rates[n] ? 1U : 0U;
     }
   }
+  identifier_ = entry.frame.Identifier;
   ++frames_;
-  const bool is_next =
-      now_ != 0 && entry.time > now_ && (entry.time - now_) * rate() <= std::uint64_t{bits} * 1'100'000;
+  const std::uint32_t known_rate = rate();
+  const bool is_next = now_ != 0 && entry.time > now_ && known_rate != 0 &&
+                       (entry.time - now_) * known_rate <= std::uint64_t{bits} * 1'100'000;
   full_time_ += is_next ? entry.time - now_ : 0;
 }
 
 std::uint32_t Facts::rate() const {
-  for (std::size_t n = 0; n < std::size(bit_rates) && bit_rate_ == 0; ++n) {
+  constexpr std::uint64_t adjacent_needed = 20;
+  if (bit_rate_ != 0) {
+    return bit_rate_;
+  }
+  for (std::size_t n = 0; n < std::size(bit_rates); ++n) {
     if (faster_[n] * 100 <= frames_) {
-      return bit_rates[n];
+      return adjacent_[n] >= adjacent_needed ? bit_rates[n] : 0;
     }
   }
-  return bit_rate_ != 0 ? bit_rate_ : bit_rates[std::size(bit_rates) - 1];
+  return 0;
+}
+
+void Facts::forget_states() {
+  for (NodeFacts& node : nodes_) {
+    node.state.reset();
+    node.command = 0;
+  }
 }
 
 void Facts::hear(std::uint8_t node, Micros time) {
@@ -136,7 +151,7 @@ void Facts::transfer(std::uint8_t node, const describe::SdoTransfer& transfer) {
   if (transfer.index == 0x1005 && !is_sync(sync) && syncs_.size() < 127) {
     syncs_.push_back(sync);
   }
-  known = {value, transfer.time, known.is_written || transfer.is_download};
+  known = {value, transfer.time};
 }
 
 std::optional<KnownValue> Facts::observed(std::uint8_t node, std::uint16_t index, std::uint8_t sub_index) const {
@@ -156,7 +171,5 @@ std::optional<std::uint32_t> Facts::value(std::uint8_t node, std::uint16_t index
   const codict::Value& value = codict::value_in_force(*entry);
   return value.is_integer() ? std::optional(static_cast<std::uint32_t>(value.integer_for(node).bits())) : std::nullopt;
 }
-
-std::string Facts::name(std::uint8_t node) const { return node == 0 ? "the master" : fmt::format("node {}", node); }
 
 }  // namespace lexican::explain

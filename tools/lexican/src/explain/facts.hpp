@@ -47,7 +47,6 @@ struct NodeFacts {
 struct KnownValue {
   std::uint32_t value = 0;
   Micros time = 0;
-  bool is_written = false;
 };
 
 class Facts {
@@ -60,6 +59,8 @@ class Facts {
 
   void frame(const Entry& entry);
   void transfer(std::uint8_t node, const describe::SdoTransfer& transfer);
+  /// Forgets the states: the time of the recording has jumped.
+  void forget_states();
 
   const NodeFacts& node(std::uint8_t node) const { return nodes_[node]; }
   /// Returns true if the node was told to enter a state, or to start anew, within a time.
@@ -73,8 +74,6 @@ class Facts {
   std::optional<KnownValue> observed(std::uint8_t node, std::uint16_t index, std::uint8_t sub_index) const;
   /// Returns the value as it was transferred, else that of the description.
   std::optional<std::uint32_t> value(std::uint8_t node, std::uint16_t index, std::uint8_t sub_index) const;
-  /// Returns "node 5", or "the master" for 0.
-  std::string name(std::uint8_t node) const;
   std::string object(std::uint8_t node, std::uint16_t index, std::uint8_t sub_index) const {
     return network_.of(node).object(index, sub_index);
   }
@@ -82,7 +81,8 @@ class Facts {
   const describe::Monitor& monitor() const { return monitor_; }
   Micros now() const { return now_; }
   bool is_rate_given() const { return bit_rate_ != 0; }
-  /// Returns the bit rate in bit/s: that which is given, else the lowest one at which the frames fit.
+  /// Returns the bit rate in bit/s: that which is given, else the lowest one at which the frames fit, if different
+  /// identifiers follow each other as closely as it permits; 0: unknown.
   std::uint32_t rate() const;
   /// Returns the time so far in which each frame came directly after the one before.
   Micros full_time() const { return full_time_; }
@@ -103,7 +103,9 @@ class Facts {
   std::uint32_t bit_rate_;
   std::uint64_t frames_ = 0;
   Micros full_time_ = 0;
-  std::array<std::uint64_t, std::size(bit_rates)> faster_{};  ///< frames that do not fit the rate
+  std::array<std::uint64_t, std::size(bit_rates)> faster_{};    ///< frames that do not fit the rate
+  std::array<std::uint64_t, std::size(bit_rates)> adjacent_{};  ///< frames directly behind one of another identifier
+  std::uint32_t identifier_ = 0;                                ///< of the last frame
   Micros now_ = 0;
 };
 

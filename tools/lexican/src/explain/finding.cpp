@@ -2,6 +2,7 @@
 #include "explain/finding.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace lexican::explain {
 
@@ -34,13 +35,21 @@ void Evidence::show_also(const Evidence& other) {
 }
 
 void Findings::put(Finding finding) {
-  const Key key{finding.cause, finding.node, finding.detail};
-  const auto known = all_.find(key);
-  if (known != all_.end()) {
-    known->second = std::move(finding);
-  } else if (all_.size() < most) {
-    all_.emplace(key, std::move(finding));
+  if (accepts(finding.cause, finding.node, finding.detail)) {
+    all_[{finding.cause, finding.node, finding.detail}] = std::move(finding);
+  } else {
+    is_cut_ = true;
   }
+}
+
+bool Findings::accepts(CauseId cause, std::uint8_t node, std::uint32_t detail) const {
+  return all_.find({cause, node, detail}) != all_.end() || count(cause) < most_of_cause;
+}
+
+std::size_t Findings::count(CauseId cause) const {
+  const auto begin = all_.lower_bound({cause, 0, 0});
+  const auto is_of_cause = [=](const auto& item) { return std::get<0>(item.first) == cause; };
+  return static_cast<std::size_t>(std::distance(begin, std::find_if_not(begin, all_.end(), is_of_cause)));
 }
 
 bool Findings::has(CauseId cause, std::uint8_t node) const {

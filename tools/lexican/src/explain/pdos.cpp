@@ -33,7 +33,8 @@ void report_collision(Findings& findings, const KnownPdo& pdo, const Evidence& e
   finding.text = text;
   finding.check = fmt::format("switch off node {}: frames {} that remain are of the other one; lexican pdo show ID",
                               pdo.node, cob_id_of(frame));
-  finding.fix = fmt::format("another COB-ID for one of them: lexican write ID {:04X}:1 COB-ID", communication_of(pdo));
+  finding.fix = fmt::format("another COB-ID for one of them: lexican pdo map {} {}pdo{} OBJECTS --cob-id COB-ID",
+                            pdo.node, pdo.is_transmit ? 't' : 'r', pdo.number);
   findings.put(std::move(finding));
 }
 
@@ -113,6 +114,7 @@ class PdoCheck : public Check {
     Evidence shared;   ///< of another node, too
     unsigned inhibited = 0;
     Evidence inhibit;
+    Micros reported = 0;  ///< as missing
   };
   struct NodePdos {
     Micros written = 0;  ///< an object by SDO
@@ -136,8 +138,9 @@ class PdoCheck : public Check {
                                entry.time - facts.state_heard < 2 * one_second &&
                                entry.time - facts.state_since > 300 * one_ms;
     if (is_state_sure && facts.state != nmt::operational) {
-      seen.foreign.add(entry, fmt::format("{} of node {}, which is not Operational", name_of(pdo), pdo.node));
-      if (seen.foreign.count() >= frames_needed) {
+      seen.foreign.add(entry,
+                       [&] { return fmt::format("{} of node {}, which is not Operational", name_of(pdo), pdo.node); });
+      if (seen.foreign.count() >= frames_needed && seen.foreign.is_news()) {
         report_collision(findings_, pdo, seen.foreign, entry.frame,
                          fmt::format("{} frames came while node {} was not Operational and sends no PDOs: another "
                                      "device has sent them.",
@@ -145,9 +148,10 @@ class PdoCheck : public Check {
       }
     }
     if (before != nullptr && before->node != pdo.node && facts.is_heard && facts_.node(before->node).is_heard) {
-      seen.shared.add(entry, fmt::format("{} of node {}, and {} of node {}", name_of(*before), before->node,
-                                         name_of(pdo), pdo.node));
-      if (seen.shared.count() >= 2) {
+      seen.shared.add(entry, [&] {
+        return fmt::format("{} of node {}, and {} of node {}", name_of(*before), before->node, name_of(pdo), pdo.node);
+      });
+      if (seen.shared.count() >= 2 && seen.shared.is_news()) {
         report_collision(findings_, pdo, seen.shared, entry.frame,
                          fmt::format("{} of node {} and {} of node {} have the COB-ID {}; only one may send with it.",
                                      name_of(*before), before->node, name_of(pdo), pdo.node, cob_id_of(entry.frame)));
@@ -169,9 +173,12 @@ class PdoCheck : public Check {
       ++seen.right;
       return;
     }
-    seen.wrong.add(entry, fmt::format("{} of node {} with {} bytes instead of {}", name_of(pdo), pdo.node,
-                                      entry.frame.DLC, bytes_of(bits)));
-    if (seen.wrong.count() < frames_needed) {
+    seen.wrong.add(entry, [&] {
+      return fmt::format("{} of node {} with {} bytes instead of {}", name_of(pdo), pdo.node, entry.frame.DLC,
+                         bytes_of(bits));
+    });
+    if (seen.wrong.count() < frames_needed || !seen.wrong.is_news() ||
+        !findings_.accepts(CauseId::pdo_length, pdo.node, detail_of(pdo))) {
       return;
     }
     if (pdo.is_transmit && seen.turns >= turns_needed) {
@@ -213,8 +220,9 @@ class PdoCheck : public Check {
       seen.inhibit.clear();
       return;
     }
-    seen.inhibit.add(entry, fmt::format("{} after {}", name_of(pdo), time_text(interval)));
-    if (seen.inhibited >= inhibited_needed && entry.time - seen.inhibit.since() >= inhibited_time) {
+    seen.inhibit.add(entry, [&] { return fmt::format("{} after {}", name_of(pdo), time_text(interval)); });
+    if (seen.inhibited >= inhibited_needed && seen.inhibit.is_news() &&
+        entry.time - seen.inhibit.since() >= inhibited_time) {
       Finding finding = finding_of(CauseId::inhibit_time, pdo, seen.inhibit);
       finding.title = fmt::format("the inhibit time of {} of node {} is never over", name_of(pdo), pdo.node);
       finding.text = fmt::format(
@@ -260,6 +268,12 @@ class PdoCheck : public Check {
 
   void report_missing(const KnownPdo& pdo, Micros now, std::uint32_t detail) {
     const NodeFacts& facts = facts_.node(pdo.node);
+    Micros& reported = seen_[key_of(pdo)].reported;
+    const bool is_recent = reported != 0 && now - reported < 5 * one_second;
+    if (is_recent || !findings_.accepts(CauseId::rpdo_missing, pdo.node, detail)) {
+      return;
+    }
+    reported = now;
     Evidence evidence;
     evidence.add(facts.state_since, fmt::format("node {} is Operational", pdo.node));
     evidence.add(now, detail == 0 ? "none of its RPDOs was received"
@@ -280,8 +294,10 @@ class PdoCheck : public Check {
     }
     finding.text += others.empty() ? "" : " Frames that no known PDO has: " + others + ".";
     finding.check = fmt::format("lexican pdo show {}; the PDO configuration of the master", pdo.node);
-    finding.fix = fmt::format("let the master send {:03X}h, or lexican write {} {:04X}:1 COB-ID of what it sends",
-                              pdo.cob_id & CO_IF_FRM_ID, pdo.node, communication_of(pdo));
+    finding.fix = fmt::format(
+        "let the master send {:03X}h, or give the RPDO the COB-ID of what it sends: lexican pdo "
+        "map {} rpdo{} OBJECTS --cob-id COB-ID",
+        pdo.cob_id & CO_IF_FRM_ID, pdo.node, pdo.number);
     findings_.put(std::move(finding));
   }
 
@@ -297,12 +313,12 @@ class PdoCheck : public Check {
     }
     const std::uint8_t length = entry.frame.DLC;
     const bool is_sync = facts_.is_sync(identifier);
-    const bool is_emergency_or_sdo = node != 0 && (function == 1 || function == 11 || function == 12);
-    const bool is_error_control = node != 0 && function == 14;
+    const bool is_emergency_or_sdo = facts_.node(node).is_heard && (function == 1 || function == 11 || function == 12);
+    const bool is_error_control = facts_.node(node).is_heard && function == 14;
     if ((is_emergency_or_sdo && length != 8 && !is_sync) || (is_error_control && length != 1)) {
       Unknown& other = unknown_[identifier];
-      other.evidence.add(entry, fmt::format("{} bytes", length));
-      if (other.evidence.count() >= frames_needed) {
+      other.evidence.add(entry, [&] { return fmt::format("{} bytes", length); });
+      if (other.evidence.count() >= frames_needed && other.evidence.is_news()) {
         report_foreign(identifier, node, other.evidence,
                        fmt::format("It is the identifier of {} of node {}, whose messages have {}; {} frames have "
                                    "another length.",
@@ -322,11 +338,13 @@ class PdoCheck : public Check {
     other.turns = is_third ? 0 : other.turns + (is_turn ? 1U : 0U);
     other.other = is_turn ? other.length : other.other;
     other.length = length;
-    other.evidence.add(entry, fmt::format("{} bytes", length));
-    if (other.turns >= turns_needed) {
+    other.evidence.add(entry, [&] { return fmt::format("{} bytes", length); });
+    if (other.turns >= turns_needed && other.evidence.is_news()) {
       report_foreign(
           identifier, 0, other.evidence,
-          fmt::format("Its frames have {} bytes and {} bytes in turn, and a PDO has one length.", other.other, length));
+          fmt::format("Its frames have {} bytes and {} bytes in turn, and a PDO has one length. It can also be "
+                      "another protocol than CANopen.",
+                      other.other, length));
     }
   }
 
@@ -335,7 +353,7 @@ class PdoCheck : public Check {
     finding.title = fmt::format("two devices send with the identifier {:03X}h", identifier);
     finding.text = text;
     finding.check = "lexican pdo show ID of each device; switch off one device after the other";
-    finding.fix = "another COB-ID for one of them: lexican write ID 1800:1 COB-ID";
+    finding.fix = "another COB-ID for one of them: lexican pdo map NODE tpdo1 OBJECTS --cob-id COB-ID";
     findings_.put(std::move(finding));
   }
 
@@ -347,9 +365,9 @@ class PdoCheck : public Check {
     constexpr unsigned timed_out = 0x8250;
     NodePdos& own = nodes_[node];
     if (code == too_short || code == too_long) {
-      own.length_errors.add(entry, fmt::format("EMCY {:04X}h", code));
-      if (own.has_length_finding) {
-        return;
+      own.length_errors.add(entry, [&] { return fmt::format("EMCY {:04X}h", code); });
+      if (own.has_length_finding || own.length_errors.count() < 2 || !own.length_errors.is_news()) {
+        return;  // one, such as at the start of a master, is no fault
       }
       Finding finding{CauseId::pdo_length, node, 0, {}, {}, {}, {}, own.length_errors};
       finding.title = fmt::format("node {} receives a PDO with another length than its mapping", node);
@@ -386,6 +404,9 @@ class SyncCheck : public Check {
 
   void frame(const Entry& entry) override {
     const std::optional<std::uint16_t> identifier = plain_identifier(entry.frame);
+    if ((entry.frame.Identifier & CO_IF_FRM_RTR) != 0) {
+      return;
+    }
     if (identifier && facts_.is_sync(*identifier) && entry.frame.DLC <= 1) {
       identifier_ = *identifier;
       synchronise(entry);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "explain/check.hpp"
 #include "trace/decode.hpp"
@@ -19,6 +20,8 @@ constexpr unsigned double_answers_needed = 3;
 constexpr std::size_t most_refusals = 4096;
 constexpr std::uint32_t wrong_toggle = 0x05030000;
 constexpr std::uint32_t timed_out = 0x05040000;
+constexpr std::uint32_t no_object = 0x06020000;
+constexpr std::uint32_t no_sub_index = 0x06090011;
 
 struct Advice {
   std::uint32_t code;
@@ -85,6 +88,10 @@ class SdoCheck : public Check {
     } else if (is_timed_out) {
       unanswered(node, transfer);
     } else {
+      constexpr unsigned few = 4;  // a device that starts
+      if (server.silences.count() < few) {
+        findings_.remove(CauseId::sdo_busy, node, 0);
+      }
       server.silences.clear();
     }
     if (transfer.end == SdoTransfer::End::refused && transfer.abort_code != wrong_toggle) {
@@ -99,7 +106,7 @@ class SdoCheck : public Check {
     unsigned open = 0;  ///< requests without an answer
     Micros requested = 0;
     bool is_streaming = false;  ///< block upload: the server sends segments without a request for each
-    std::uint32_t head = 0;     ///< command and object of the last answer
+    std::uint32_t object = 0;   ///< index and sub-index of the last answer
     unsigned answers = 0;       ///< since the first one that came twice
     Evidence doubled;
     Evidence silences;
@@ -139,27 +146,27 @@ class SdoCheck : public Check {
     if (server.is_streaming || command == 6) {
       return;
     }
-    const std::uint32_t head = CO_GET_LONG(&entry.frame, 0);
-    const bool is_same = std::exchange(server.head, head) == head && (command == 2 || command == 3);
+    const std::uint32_t object = CO_GET_LONG(&entry.frame, 0) >> 8;
+    const bool is_same = std::exchange(server.object, object) == object && command >= 2 && command <= 4;
     if (server.open > 0 || !is_same) {
       server.open -= std::min(server.open, 1U);
       server.answers += server.doubled.count() != 0 ? 1U : 0U;
       return;
     }
     server.doubled.add(entry, "a second answer to one request");
-    if (server.doubled.count() >= double_answers_needed && server.doubled.count() * 2 >= server.answers) {
+    if (server.doubled.is_news() && server.doubled.count() >= double_answers_needed &&
+        server.doubled.count() * 2 >= server.answers) {
       Finding finding{CauseId::same_node_id, node, 1, {}, {}, {}, {}, server.doubled};
       finding.title = fmt::format("two devices have the node-ID {}", node);
       finding.text =
           fmt::format("SDO requests to node {} were answered twice, {} times.", node, server.doubled.count());
       finding.check = fmt::format("switch off one of them: lexican scan has to lose node {}", node);
-      finding.fix = "give one of them another node-ID: its switches, or lexican lss assign SERIAL=ID";
+      finding.fix = "give one of them another node-ID: its switches, or lexican lss assign SERIAL=ID --store";
       findings_.put(std::move(finding));
     }
   }
 
   void refused(std::uint8_t node, const SdoTransfer& transfer) {
-    constexpr std::uint32_t no_sub_index = 0x06090011;
     const bool is_optional = transfer.index >= 0x1400 && transfer.index < 0x1A00 && transfer.sub_index > 2;
     if (is_optional && !transfer.is_download && transfer.abort_code == no_sub_index) {
       return;  // a program looks for an optional parameter of a PDO
@@ -169,13 +176,14 @@ class SdoCheck : public Check {
       return;
     }
     Refusal& refusal = refusals_[access];
-    if (refusal.code != transfer.abort_code) {
-      refusal = {transfer.abort_code, {}};
-    }
+    refusal.code = transfer.abort_code;
     const std::string object = facts_.object(node, transfer.index, transfer.sub_index);
     const std::string code = trace::abort_code(transfer.abort_code);
     refusal.evidence.add(transfer.time, words(transfer, object) + " refused: " + code);
-    if (refusal.evidence.count() < refusals_needed) {
+    // A program may look once for an object that not all devices have.
+    const bool is_search =
+        !transfer.is_download && (transfer.abort_code == no_object || transfer.abort_code == no_sub_index);
+    if (refusal.evidence.count() < (is_search ? 2 * refusals_needed : refusals_needed) || !refusal.evidence.is_news()) {
       return;
     }
     const auto* const advice = std::find_if(std::begin(advices), std::end(advices),
@@ -184,7 +192,7 @@ class SdoCheck : public Check {
     finding.title = fmt::format("node {} refuses to {} again and again", node, words(transfer, object));
     finding.text = fmt::format("It refused {} times: {} {}.", refusal.evidence.count(), code,
                                trace::abort_meaning(transfer.abort_code));
-    finding.check = fmt::format("lexican read {} {:04X}:{}", node, transfer.index, transfer.sub_index);
+    finding.check = fmt::format("lexican read {} {:04X}:{:X}", node, transfer.index, transfer.sub_index);
     finding.fix =
         advice != std::end(advices) ? advice->text : "the manual of the device says when it refuses this object";
     findings_.put(std::move(finding));
@@ -257,7 +265,7 @@ class SdoCheck : public Check {
     server.losses.add(transfer.time,
                       words(transfer, object) +
                           (transfer.lost_segments > 0 ? ": segments are sent again" : ": it stopped before its end"));
-    if (server.lost == 0 && server.stalls < stalls_needed) {
+    if ((server.lost == 0 && server.stalls < stalls_needed) || !server.losses.is_news()) {
       return;
     }
     Finding finding{CauseId::segments_lost, node, 0, {}, {}, {}, {}, server.losses};
@@ -281,7 +289,7 @@ class SdoCheck : public Check {
         "It did not alternate in {} transfers: a segment was lost, came twice, or the firmware of "
         "one side is wrong.",
         server.toggles.count());
-    finding.check = fmt::format("lexican read {} {:04X}:{}", node, transfer.index, transfer.sub_index);
+    finding.check = fmt::format("lexican read {} {:04X}:{:X}", node, transfer.index, transfer.sub_index);
     finding.fix = "the firmware of the side whose bit is wrong: 0 in the first segment, then in turn [301:7.2.4.3]";
     findings_.put(std::move(finding));
   }

@@ -4,6 +4,7 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -80,8 +81,10 @@ class Why {
     std::stable_sort(all.begin(), all.end(),
                      [](const Finding& a, const Finding& b) { return a.evidence.since() < b.evidence.since(); });
     for (const Finding& finding : all) {
-      const bool is_settled = finding.evidence.since() + settled <= now;
-      if (is_wanted(finding) && is_settled && shown_.insert({finding.cause, finding.node, finding.detail}).second) {
+      const explain::Findings::Key key{finding.cause, finding.node, finding.detail};
+      const Micros found = found_.try_emplace(key, now).first->second;
+      const bool is_settled = now == host_bus::max_time || found + settled <= now;
+      if (is_wanted(finding) && is_settled && shown_.insert(key).second) {
         options_.common.is_json ? print_json(finding) : print_text(finding);
       }
     }
@@ -136,11 +139,15 @@ class Why {
       print_message(bus.log() != nullptr ? "the log has no frames" : "no frame was received: see lexican scan");
       return no_answer;
     }
+    if (explainer_.is_cut()) {
+      print_message("there are more findings of some causes than are shown");
+    }
     if (!shown_.empty()) {
       return refused;
     }
     if (!options_.common.is_json) {
-      print(fmt::format("no known cause of a fault in {} frames, {:.3f} s", numbers.frames, seconds(numbers.last)) +
+      print(fmt::format("no known cause of a fault{} in {} frames, {:.3f} s", nodes_.empty() ? "" : " of these nodes",
+                        numbers.frames, seconds(numbers.last)) +
             (explainer_.faults() == 0
                  ? "\n"
                  : fmt::format("; {} lines that lexican mon shows as faults have no cause that is known\n",
@@ -155,6 +162,7 @@ class Why {
   LostBus lost_;
   std::set<unsigned> nodes_;
   std::set<explain::Findings::Key> shown_;
+  std::map<explain::Findings::Key, Micros> found_;  ///< time at which it was found
 };
 
 int run_why(WhyOptions& options) {
