@@ -38,7 +38,7 @@ WRONG_USE = 2
 MOST_SECONDS = 30
 HEARTBEAT_SECONDS = 1.2  # and some more
 TYPING_SECONDS = 0.3  # until a simulation has executed a command
-LISTENING_SECONDS = 5  # of a command that ends with Ctrl-C, if fewer lines come than are expected
+LISTENING_SECONDS = 10  # of a command that ends with Ctrl-C, if fewer lines come than are expected
 
 BLOCK = re.compile(r"(?P<comments>(?:^<!-- [^\n]* -->\n)*)^```text\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMENT = re.compile(r"<!-- (before|not run): (.*) -->")
