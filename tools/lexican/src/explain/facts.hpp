@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file facts.hpp
-/// What is known of the nodes of a bus: their states, and the values of their objects.
+/// The states of the nodes of a bus, and the values of their objects, as the frames so far show them.
 #pragma once
 
 #include <algorithm>

@@ -228,6 +228,16 @@ std::uint8_t node_of(std::string_view text) {
   return error == std::errc() && next == end && node <= 127 ? node : std::uint8_t{0};
 }
 
+bool are_nodes(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) {
+    if (node_of(text) == 0) {
+      print_message("'" + text + "' is no node-ID, which is 1 to 127");
+      return false;
+    }
+  }
+  return true;
+}
+
 bool is_confirmed(const std::string& question) {
   if (console != nullptr) {
     return console->confirm(question);

@@ -105,6 +105,8 @@ std::uint32_t bit_rate_of(std::string_view text);
 
 /// Converts a node-ID, 1 to 127; 0: it is none.
 std::uint8_t node_of(std::string_view text);
+/// Returns true if all texts are node-IDs; prints the first one that is none.
+bool are_nodes(const std::vector<std::string>& texts);
 
 /// Asks on the terminal, or on the Console. An Interruption must exist, and ends the question.
 /// \retval true   the answer is yes

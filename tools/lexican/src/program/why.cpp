@@ -177,11 +177,8 @@ int run_why(WhyOptions& options) {
   if (!read_descriptions(options.common, network)) {
     return usage;
   }
-  for (const std::string& node : options.nodes) {
-    if (node_of(node) == 0) {
-      print_message("'" + node + "' is no node-ID, which is 1 to 127");
-      return usage;
-    }
+  if (!are_nodes(options.nodes)) {
+    return usage;
   }
   int status = ok;
   const std::unique_ptr<host_bus::Bus> bus = open_bus(options.common, true, status);
